@@ -7,7 +7,8 @@ from urllib.parse import urlsplit
 
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.client import API
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.service.documentation import Documentation
 from colift.leaderboard.service.errors import Problem
@@ -80,8 +81,6 @@ Service = Annotated[ServiceState, Depends(service_state)]
 """The type of a route's parameter."""
 
 
-PREFIX: Final = "/api/v1"
-
 SeasonName = Annotated[
     str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$", description="Name of a season.")
 ]
@@ -127,7 +126,7 @@ UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
 
 def api_root(request: Request) -> str:
     """Return the address of the API for the client: a proxy may have put it below a path."""
-    return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"
+    return f"{request.scope.get('root_path', '').rstrip('/')}{API}"
 
 
 def origin_of(request: Request) -> str:
@@ -136,11 +135,11 @@ def origin_of(request: Request) -> str:
     return f"{parts.scheme}://{parts.netloc}" if parts.netloc else ""
 
 
-def links_of(request: Request) -> ServiceLinks:
+def links_of(request: Request) -> Links:
     """Return the addresses of the pages for the client."""
     root = str(request.scope.get("root_path", "")).rstrip("/")
     state = service_state(request)
-    return ServiceLinks(
+    return Links(
         root,
         "" if state.docs is None else state.docs.link(root),
         f"{root}{PLAY}/" if state.play else "",

@@ -1,8 +1,8 @@
 """The board page: rows of a season's table, and its picture."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Final
 from weakref import WeakKeyDictionary
 
 from colift.benchmark.comparison.scatter.scene import ScatterScene
@@ -17,6 +17,14 @@ from colift.leaderboard.views.axis import Axis, make_axis
 from colift.leaderboard.views.bounds import PublicBound, bounds_of
 from colift.leaderboard.views.lifts import Part, StratumScore, human_human_mean_rmse, known
 from colift.leaderboard.views.lines import Lines, RankedLine, lines_of, strata_of
+from colift.leaderboard.views.page import (
+    Content,
+    NoPageError,
+    Page,
+    Visit,
+    find_season,
+    ordered_seasons,
+)
 from colift.leaderboard.views.picture import PICTURED, pictures
 
 
@@ -153,8 +161,8 @@ class BoardView:
 
 def board_view(
     board: Board, season: str | None = None, asked: Asked | None = None, most: int = ROWS
-) -> BoardView | None:
-    """Return the page of a season, by default of the current one; None if there is no such season.
+) -> BoardView:
+    """Return the page of a season, by default of the current one.
 
     The number of queries does not depend on the number of rows, nor does the size of the page.
 
@@ -166,11 +174,13 @@ def board_view(
         What to show of it; by default its first rows.
     most
         Maximum number of rows.
+
+    Raises
+    ------
+    NoPageError
+        If there is no such season.
     """
-    seasons = ordered_seasons(board)
-    info = find_season(seasons, season)
-    if info is None:
-        return None
+    info = find_season(board, season)
     table, asked = board.tables.read(info.name), asked or Asked()
     strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
     lines = lines_of(board, table, asked, _behaviours(strata), most)
@@ -183,7 +193,7 @@ def board_view(
     out = (*table.sections["unverified"], *table.sections["out"])
     return BoardView(
         season=info,
-        seasons=seasons,
+        seasons=ordered_seasons(board),
         asked=asked,
         lines=lines,
         leader=leader[0] if leader else None,
@@ -212,17 +222,6 @@ def board_view(
         most=most,
         pictured=sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
     )
-
-
-def ordered_seasons(board: Board) -> tuple[SeasonInfo, ...]:
-    """Return the seasons, the current one first, then the newest."""
-    by_age = sorted(board.seasons(), key=lambda info: info.began_at, reverse=True)
-    return tuple(sorted(by_age, key=lambda info: not info.current))
-
-
-def find_season(seasons: Sequence[SeasonInfo], name: str | None) -> SeasonInfo | None:
-    """Return the season of that name, or the first if no name is given."""
-    return next((info for info in seasons if name in (None, info.name)), None)
 
 
 _axes: WeakKeyDictionary[Table, Axis] = WeakKeyDictionary()
@@ -275,3 +274,45 @@ def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list
     found = [stratum.metrics[name] for name in metrics]
     means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
     return [round(stratum.rmse_mm, 4), *means]
+
+
+def _shown(visit: Visit, season: str | None = None) -> Content:
+    view = board_view(visit.board, season, visit.asked)
+    return {"view": view, "page": "front" if view.season.current else "season"}
+
+
+def _further(visit: Visit, season: str, number: str) -> Content:
+    """Return a page of rows of a site; the first is that of the table."""
+    return _shown(replace(visit, asked=Asked(first=(int(number) - 1) * ROWS)), season)
+
+
+def _rest(visit: Visit, season: str) -> Content:
+    """Return the rows behind the first page, for a script of a site."""
+    total = len(visit.board.tables.read(season).ranking)
+    if total <= ROWS:
+        raise NoPageError(f"Season {season} has a single page of rows.")
+    return {"view": board_view(visit.board, season, Asked(first=ROWS), most=total)}
+
+
+PAGES: Final = (
+    Page(
+        name="front",
+        url="/",
+        file="index.html",
+        view=_shown,
+        template="board.html",
+        meaning="The table of the current season.",
+        menu="Board",
+        place=10,
+    ),
+    Page(
+        name="season",
+        url="/seasons/{season}",
+        file="season-{season}.html",
+        view=_shown,
+        template="board.html",
+        meaning="The table of a season.",
+    ),
+    Page(name="rows", file="rows-{season}-{number}.html", view=_further, template="board.html"),
+    Page(name="rest", file="data/{season}-rows.js", view=_rest, template="rest.js"),
+)

@@ -17,7 +17,6 @@ from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
@@ -29,6 +28,7 @@ from colift.leaderboard.views.lifts import (
     stratum_scores,
     version,
 )
+from colift.leaderboard.views.page import Page, find_season
 
 ALL: Final = 40
 """Number of policies, from the best, in a page that shows only some of them at a time."""
@@ -104,8 +104,8 @@ class CompareView:
 
 def compare_view(
     board: Board, season: str | None = None, digests: Sequence[str] | None = None
-) -> CompareView | None:
-    """Return the comparison of some policies; None if there is no such season.
+) -> CompareView:
+    """Return the comparison of some policies.
 
     Parameters
     ----------
@@ -115,10 +115,13 @@ def compare_view(
         The submissions; those that are not in the ranking are left out, and those beyond
         :data:`.CHOSEN`. An empty sequence compares the first two of the table. None compares the
         best :data:`ALL`, for a page that shows only some of them at a time.
+
+    Raises
+    ------
+    NoPageError
+        If there is no such season.
     """
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
+    info = find_season(board, season)
     ranking = board.tables.read(info.name).ranking
     ranked = {each.row.submission: each for each in ranking}
     if digests is None:
@@ -234,3 +237,20 @@ def _differences(
         for b, ok in zip(behind, comparable, strict=True):
             found.append(PairedDifference.of(errors, b, strata, next(ps)) if ok else None)
     return tuple(found)
+
+
+PAGES: Final = (
+    Page(
+        name="compare",
+        url="/seasons/{season}/compare",
+        file="compare-{season}.html",
+        view=lambda visit, season: {
+            "view": compare_view(visit.board, season, visit.chosen),
+            "asked": visit.chosen,
+        },
+        template="compare.html",
+        meaning="Two to four policies, lift by lift: `?p=DIGEST` for each.",
+        menu="Compare",
+        place=20,
+    ),
+)

@@ -8,8 +8,9 @@ from typing import Final
 
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow, frame
+from colift.leaderboard.client import API
 from colift.leaderboard.records.season import SeasonInfo
-from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.page import Page, find_season
 
 FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
 """First characters of a text that spreadsheets take for a formula."""
@@ -75,11 +76,15 @@ class News:
     rows: tuple[NewRow, ...]
 
 
-def news_of(board: Board, season: str) -> News | None:
-    """Return the newest :data:`MOST` rows of a season; None if there is no such season."""
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
+def news_of(board: Board, season: str) -> News:
+    """Return the newest :data:`MOST` rows of a season.
+
+    Raises
+    ------
+    NoPageError
+        If there is no such season.
+    """
+    info = find_season(board, season)
     newest = board.tables.newest(season, MOST)
     rows = tuple(
         NewRow(
@@ -100,3 +105,31 @@ def news_of(board: Board, season: str) -> News | None:
 def _identifier(info: SeasonInfo, submission: str) -> uuid.UUID:
     """Return an identifier that follows from published facts of a season and a submission."""
     return uuid.uuid5(uuid.NAMESPACE_OID, f"{info.name} {info.commitment} {submission}")
+
+
+PAGES: Final = (
+    Page(
+        name="feed",
+        url="/seasons/{season}/feed.atom",
+        file="data/{season}.atom",
+        view=lambda visit, season: {
+            "news": news_of(visit.board, season),
+            "prefix": visit.origin,
+        },
+        template="feed.xml",
+        media="application/atom+xml",
+        meaning="The newest rows of a season, as an Atom feed.",
+    ),
+    Page(
+        name="csv",
+        url=API + "/standings.csv?season={season}",
+        file="data/{season}.csv",
+        view=lambda visit, season: standings_csv(visit.board, season),
+    ),
+    Page(
+        name="json",
+        url=API + "/standings?season={season}",
+        file="data/{season}.json",
+        view=lambda visit, season: standings_json(visit.board, season),
+    ),
+)

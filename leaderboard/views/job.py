@@ -5,15 +5,14 @@ from datetime import timedelta
 from typing import Final
 
 from colift.leaderboard.board.board import Board
+from colift.leaderboard.client import API
 from colift.leaderboard.evaluation.evaluation import stage_episodes
 from colift.leaderboard.evaluation.progress import HIDDEN, Stage
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.job import Job
 from colift.leaderboard.records.season import BoardEntry
+from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
 from colift.leaderboard.views.suites import season_suite
-
-WAITING: Final = 100
-"""Maximum number of jobs in the queue's list."""
 
 STAGES: Final[tuple[Stage, ...]] = ("check", "public run", "audit", "verification", "hidden run")
 """The stages that every evaluation goes through, in their order."""
@@ -97,7 +96,20 @@ def _lifts(board: Board, season: str) -> dict[Stage, int]:
     return {} if suite is None else stage_episodes(suite)
 
 
-def open_jobs(queue: Queue) -> tuple[Job, ...]:
-    """Return the present queue, oldest submission first."""
-    jobs = [job for job in queue.jobs(limit=WAITING) if not job.ended]
-    return tuple(sorted(jobs, key=lambda job: job.submitted_at))
+def _job(visit: Visit, job: str) -> Content:
+    view = None if visit.queue is None else job_view(visit.board, visit.queue, job)
+    if view is None:
+        raise NoPageError("There is no such job.")
+    return {"view": view, "season": find_season(visit.board, view.job.season), "hidden": HIDDEN}
+
+
+PAGES: Final = (
+    Page(
+        name="job",
+        url="/jobs/{job}",
+        view=_job,
+        template="job.html",
+        meaning="The progress of a submission; only its submitter knows the address.",
+    ),
+    Page(name="api_job", url=API + "/jobs/{job}"),
+)

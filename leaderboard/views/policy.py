@@ -9,10 +9,10 @@ from typing import Final
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RANKED, RankedRow
+from colift.leaderboard.client import API
 from colift.leaderboard.database.schema import entries
 from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
@@ -24,6 +24,8 @@ from colift.leaderboard.views.lifts import (
     public_lifts,
     stratum_scores,
 )
+from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
+from colift.leaderboard.views.replays import watchable
 
 BLEND: Final = "blend"
 """The paper's method, with which every policy is compared."""
@@ -113,17 +115,22 @@ class RefusalView:
     has_bundle: bool
 
 
-def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalView | None:
-    """Return the page of a submission; None if the board knows no such submission."""
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
+def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalView:
+    """Return the page of a submission.
+
+    Raises
+    ------
+    NoPageError
+        If the board knows no such submission.
+    """
+    info = find_season(board, season)
     mine = board.tables.row(season, digest)
     bundle = board.bundle(season, digest)
     if mine is None:
         entry = board.entry(season, digest)
-        whole = is_whole(bundle)
-        return None if entry is None else RefusalView(season=info, entry=entry, has_bundle=whole)
+        if entry is None:
+            raise NoPageError(f"Season {season} has no submission {digest[:16]}.")
+        return RefusalView(season=info, entry=entry, has_bundle=is_whole(bundle))
     ranks = board.tables.last_ranks(season)
     others = sorted(
         (each.row.submission for each in board.tables.rows(season, entries.c.name == BLEND)),
@@ -206,3 +213,47 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
             )
         )
     return tuple(found)
+
+
+def _policy(visit: Visit, season: str, digest: str) -> Content:
+    view = policy_view(visit.board, season, digest)
+    if isinstance(view, RefusalView):
+        return {"view": view, "template": "refusal.html"}
+    return {"view": view, "has_replays": watchable(visit, season, digest)}
+
+
+def _badge(visit: Visit, season: str, digest: str) -> Content:
+    found = visit.board.tables.row(season, digest)
+    if found is None:
+        raise NoPageError(f"Season {season} has no row {digest[:16]}.")
+    return {"standing": found}
+
+
+PAGES: Final = (
+    Page(
+        name="policy",
+        url="/seasons/{season}/policies/{digest}",
+        file="policy-{season}-{digest:.16}.html",
+        view=_policy,
+        template="policy.html",
+        meaning="A submission: its scores, or why it has none.",
+    ),
+    Page(
+        name="badge",
+        url="/seasons/{season}/policies/{digest}/badge.svg",
+        file="data/{season}-{digest:.16}.svg",
+        view=_badge,
+        template="badge.svg",
+        media="image/svg+xml",
+        headers={
+            "Cross-Origin-Resource-Policy": "cross-origin",
+            "Cache-Control": "max-age=300",
+        },
+        meaning="The badge of a row, for other sites.",
+    ),
+    Page(
+        name="bundle",
+        url=API + "/entries/{season}/{digest}/bundle.zip",
+        file="data/{season}-{digest:.16}.zip",
+    ),
+)

@@ -10,13 +10,14 @@ from colift.agents.humans import Subject
 from colift.benchmark.episode.lift import make_lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
 from colift.leaderboard.views.lifts import Part, StratumScore, known, part_estimate, stratum_scores
+from colift.leaderboard.views.page import NoPageError, Page, find_season
 from colift.leaderboard.views.suites import season_suite
 
 CURVES: Final = 5
@@ -106,15 +107,15 @@ class ScenariosView:
         return tuple(sorted(self.strata.values(), key=lambda c: self.behaviours.index(c.behaviour)))
 
 
-def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
+def scenarios_view(board: Board, season: str | None = None) -> ScenariosView:
     """Return the list of a season's scenarios.
 
-    None if there is no such season, or this colift does not play its suite.
+    Raises
+    ------
+    NoPageError
+        If there is no such season, or this colift does not play its suite.
     """
-    info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else season_suite(info)
-    if info is None or suite is None:
-        return None
+    info, suite = _played(board, season)
     scored = _scored(board, info)
     strata = {}
     for scenario in suite.scenarios:
@@ -144,17 +145,29 @@ def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | N
     )
 
 
-def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> ScenarioView | None:
-    """Return the page of a scenario; None if the season has none of that name."""
-    info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else season_suite(info)
-    if info is None or suite is None:
-        return None
+def _played(board: Board, season: str | None) -> tuple[SeasonInfo, Suite]:
+    """Return a season and its suite."""
+    info = find_season(board, season)
+    suite = season_suite(info)
+    if suite is None:
+        raise NoPageError(f"This colift does not play the suite of season {info.name}.")
+    return info, suite
+
+
+def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> ScenarioView:
+    """Return the page of a scenario.
+
+    Raises
+    ------
+    NoPageError
+        If the season has none of that name, or as :func:`scenarios_view`.
+    """
+    info, suite = _played(board, season)
     scenario = next(
         (s for s in suite.scenarios if (s.behaviour, s.subject.name) == (behaviour, subject)), None
     )
     if scenario is None:
-        return None
+        raise NoPageError(f"Season {season} has no such scenario.")
     key = (behaviour, subject)
     scored = [
         (each, score) for each, strata in _scored(board, info) if (score := _score(strata, key))
@@ -219,3 +232,27 @@ def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[Curve, ...]:
             heights = tuple(round(1000 * float(height), 1) for height in lift.target[::5])
             curves.append(Curve(seed=seed, heights=heights))
     return tuple(curves)
+
+
+PAGES: Final = (
+    Page(
+        name="scenarios",
+        url="/seasons/{season}/scenarios",
+        file="scenarios-{season}.html",
+        view=lambda visit, season: {"view": scenarios_view(visit.board, season)},
+        template="scenarios.html",
+        meaning="The scenarios of a season, with every policy on each.",
+        menu="Scenarios",
+        place=30,
+    ),
+    Page(
+        name="scenario",
+        url="/seasons/{season}/scenarios/{behaviour}/{subject}",
+        file="scenario-{season}-{behaviour}-{subject}.html",
+        view=lambda visit, season, behaviour, subject: {
+            "view": scenario_view(visit.board, season, behaviour, subject)
+        },
+        template="scenario.html",
+        meaning="A behaviour with a person.",
+    ),
+)

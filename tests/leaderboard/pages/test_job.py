@@ -5,7 +5,7 @@ from datetime import timedelta
 import pytest
 from colift.leaderboard.evaluation.evaluation import episode_count
 from colift.leaderboard.pages.formats import duration
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.views.job import job_view
@@ -49,9 +49,7 @@ def test_the_time_that_is_left_follows_from_the_speed_so_far(view_at, board):
     assert view.elapsed == timedelta(minutes=10)
     assert view.left == timedelta(minutes=10) * ((view.job.total - 10) / 10)
     season = board.season_info()
-    text = render_page(
-        "job.html", ServiceLinks(), view=view, season=season, api="/", hidden="hidden run"
-    )
+    text = render_page("job.html", Links(), view=view, season=season, api="/", hidden="hidden run")
     assert f"10 of {view.job.total} lifts of all stages" in text
     assert f"10 min so far, about {duration(view.left)} left" in text
 

@@ -12,7 +12,7 @@ import sqlalchemy as sa
 from colift.benchmark.bundle.files import RESULTS
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.database.queries import record_entry
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.records.row import BoardRow
@@ -78,9 +78,7 @@ def fill(board, first, last, bundle):
 
 
 def page_of(board, **asked):
-    return render_page(
-        "board.html", ServiceLinks(), view=board_view(board, None, Asked.read(**asked))
-    )
+    return render_page("board.html", Links(), view=board_view(board, None, Asked.read(**asked)))
 
 
 def test_a_thousand_entries_take_no_more_queries_and_no_more_bytes_than_some_hundred(board, few):

@@ -11,7 +11,7 @@ from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import HumanHumanScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
@@ -157,7 +157,7 @@ def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):
     (bundle / EPISODES).write_text("\n".join(["behaviour,subject,seed,rmse_mm,failure", *lines]))
     (bundle / RESULTS).write_text('{"groups": []}')
     view = policy_view(board, "1", row.submission)
-    page = render_page("policy.html", ServiceLinks(), view=view, has_replays=True)
+    page = render_page("policy.html", Links(), view=view, has_replays=True)
     board.close()
     assert [(each.why, len(each.lifts)) for each in view.failures] == [
         ("step 0: TypeError", 11),

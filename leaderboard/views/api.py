@@ -1,20 +1,23 @@
-"""The OpenAPI document of the service in the form for pages: operations, and their objects."""
+"""The page of the API: the operations of its OpenAPI document, and their objects."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final
+
+from colift.leaderboard.client import API
+from colift.leaderboard.views.page import Content, Page, Visit
 
 
 @dataclass(frozen=True, kw_only=True)
-class RequestParameter:
-    """A part of a path or a query."""
+class Property:
+    """A key of an object, or a parameter of a request."""
 
     name: str
-    place: str
-    """``path`` or ``query``."""
     kind: str
     """Its type in a few words."""
     meaning: str
+    place: str = ""
+    """``path`` or ``query``; empty for a key."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,18 +42,8 @@ class Operation:
     """Whether it requires the header ``Authorization``."""
     body: str
     """Media types and meaning of the body; empty if it has none."""
-    parameters: tuple[RequestParameter, ...]
+    parameters: tuple[Property, ...]
     responses: tuple[Response, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Property:
-    """A key of an object."""
-
-    name: str
-    kind: str
-    """Its type in a few words."""
-    meaning: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,7 +65,10 @@ def operations(document: dict[str, Any]) -> Iterator[Operation]:
                 description=content["description"],
                 needs_token="security" in content,
                 body=_body(content.get("requestBody")),
-                parameters=tuple(map(_parameter, content.get("parameters", ()))),
+                parameters=tuple(
+                    _property(each["name"], each, each["schema"], each["in"])
+                    for each in content.get("parameters", ())
+                ),
                 responses=tuple(
                     _response(status, answer)
                     for status, answer in sorted(content["responses"].items())
@@ -87,8 +83,7 @@ def schemas(document: dict[str, Any]) -> Iterator[Schema]:
             name=name,
             meaning=content.get("description", ""),
             properties=tuple(
-                Property(name=key, kind=kind_of(each), meaning=each.get("description", ""))
-                for key, each in content.get("properties", {}).items()
+                _property(key, each, each) for key, each in content.get("properties", {}).items()
             ),
         )
 
@@ -99,13 +94,11 @@ def _body(content: dict[str, Any] | None) -> str:
     return f"{', '.join(content['content'])}. {content.get('description', '')}".strip()
 
 
-def _parameter(content: dict[str, Any]) -> RequestParameter:
-    return RequestParameter(
-        name=content["name"],
-        place=content["in"],
-        kind=kind_of(content["schema"]),
-        meaning=content.get("description", ""),
-    )
+def _property(
+    name: str, content: dict[str, Any], schema: dict[str, Any], place: str = ""
+) -> Property:
+    meaning = content.get("description", "")
+    return Property(name=name, kind=kind_of(schema), meaning=meaning, place=place)
 
 
 def _response(status: str, content: dict[str, Any]) -> Response:
@@ -130,3 +123,24 @@ def kind_of(schema: dict[str, Any]) -> str:
     if schema.get("type") == "array":
         return f"list of {kind_of(schema['items'])}" if schema.get("items") else "list"
     return " ".join(str(schema[key]) for key in ("type", "format") if key in schema) or "anything"
+
+
+def _api(visit: Visit) -> Content:
+    document = visit.document()
+    return {
+        "info": document["info"],
+        "operations": list(operations(document)),
+        "schemas": list(schemas(document)),
+    }
+
+
+PAGES: Final = (
+    Page(
+        name="api",
+        url="/api",
+        view=_api,
+        template="api.html",
+        meaning="The JSON interface; the same as this page of the documentation.",
+    ),
+    Page(name="openapi", url=f"{API}/openapi.json"),
+)
