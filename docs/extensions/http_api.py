@@ -17,10 +17,7 @@ from sphinx.util.docutils import SphinxDirective
 
 
 class HttpApi(SphinxDirective):
-    """``operations``, a section for each method and path; ``schemas``, one for each object; ``pages``.
-
-    The last is a table of the pages of a board.
-    """
+    """``operations``: a section each; ``schemas``: a section for each object; ``pages``: a table."""
 
     required_arguments = 1
 
