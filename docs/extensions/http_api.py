@@ -17,7 +17,7 @@ from sphinx.util.docutils import SphinxDirective
 
 
 class HttpApi(SphinxDirective):
-    """``operations``: a section each; ``schemas``: a section for each object; ``pages``: a table."""
+    """``operations``: a section each; ``schemas``: one for each object; ``pages``: a table."""
 
     required_arguments = 1
 

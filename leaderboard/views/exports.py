@@ -2,15 +2,13 @@
 
 import json
 import uuid
-from dataclasses import dataclass
-from datetime import datetime
-from typing import Final
+from typing import Any, Final
 
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import RankedRow, frame
+from colift.leaderboard.board.standings import frame
 from colift.leaderboard.client import API
 from colift.leaderboard.records.season import SeasonInfo
-from colift.leaderboard.views.page import Page, find_season
+from colift.leaderboard.views.page import Content, Page, Visit, find_season
 
 FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
 """First characters of a text that spreadsheets take for a formula."""
@@ -55,51 +53,24 @@ MOST: Final = 100
 """Maximum number of rows in a feed."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class NewRow:
-    """A row of the board."""
-
-    id: uuid.UUID
-    """Identifier; it is the same wherever the board is shown."""
-    standing: RankedRow
-    updated: datetime
-    """Time of the last event, or of the entry."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class News:
-    """Content of a season's feed."""
-
-    id: uuid.UUID
-    season: SeasonInfo
-    updated: datetime
-    rows: tuple[NewRow, ...]
-
-
-def news_of(board: Board, season: str) -> News:
-    """Return the newest :data:`MOST` rows of a season.
-
-    Raises
-    ------
-    NoPageError
-        If there is no such season.
-    """
-    info = find_season(board, season)
-    newest = board.tables.newest(season, MOST)
-    rows = tuple(
-        NewRow(
-            id=_identifier(info, each.row.submission),
-            standing=each,
-            updated=max([each.at, *(event.at for event in each.events)]),
-        )
-        for each in newest
-    )
-    return News(
-        id=_identifier(info, ""),
-        season=info,
-        updated=max([info.began_at, *(row.updated for row in rows)]),
-        rows=rows,
-    )
+def _news(visit: Visit, season: str) -> Content:
+    """Return the newest :data:`MOST` rows, each with its last change; identifiers never change."""
+    info = find_season(visit.board, season)
+    rows: list[dict[str, Any]] = [
+        {
+            "id": _identifier(info, each.row.submission),
+            "standing": each,
+            "updated": max([each.at, *(event.at for event in each.events)]),
+        }
+        for each in visit.board.tables.newest(season, MOST)
+    ]
+    return {
+        "id": _identifier(info, ""),
+        "season": info,
+        "updated": max([info.began_at, *(row["updated"] for row in rows)]),
+        "rows": rows,
+        "prefix": visit.origin,
+    }
 
 
 def _identifier(info: SeasonInfo, submission: str) -> uuid.UUID:
@@ -112,10 +83,7 @@ PAGES: Final = (
         name="feed",
         url="/seasons/{season}/feed.atom",
         file="data/{season}.atom",
-        view=lambda visit, season: {
-            "news": news_of(visit.board, season),
-            "prefix": visit.origin,
-        },
+        view=_news,
         template="feed.xml",
         media="application/atom+xml",
         meaning="The newest rows of a season, as an Atom feed.",

@@ -218,7 +218,7 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
 def _policy(visit: Visit, season: str, digest: str) -> Content:
     view = policy_view(visit.board, season, digest)
     if isinstance(view, RefusalView):
-        return {"view": view, "template": "refusal.html"}
+        return {**vars(view), "template": "refusal.html"}
     return {"view": view, "has_replays": watchable(visit, season, digest)}
 
 

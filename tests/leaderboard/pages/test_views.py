@@ -24,9 +24,10 @@ from colift.leaderboard.views.lifts import (
     public_lifts,
     stratum_scores,
 )
+from colift.leaderboard.views.page import Visit
 from colift.leaderboard.views.picture import make_picture
 from colift.leaderboard.views.policy import RefusalView, policy_view
-from colift.leaderboard.views.scenario import scenarios_view
+from colift.leaderboard.views.scenario import scenarios
 
 from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
@@ -110,17 +111,6 @@ def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path)
     assert bare.ci95 == (bare.mean, bare.mean)
 
 
-def test_the_best_of_each_scenario_is_named(shown):
-    view = scenarios_view(shown, "2026")
-    assert set(view.strata) == {
-        ("smooth", "S1"),
-        ("pause", "S2"),
-        ("jerky", "S3"),
-        ("changing_goal", "S5"),
-    }
-    assert all(stratum.best.row.name != "hold" for stratum in view.strata.values())
-
-
 def test_the_picture_has_hidden_errors_and_public_smoothness():
     row = make_row("a", 10.0, sparc=-2.5)
     picture = make_picture([row], human_human(9.7), size=WIDE)
@@ -172,12 +162,14 @@ def test_what_tex_would_take_for_a_command_is_escaped():
 
 
 def test_the_map_of_scenarios_has_every_policy_of_the_ranking(shown):
-    view = scenarios_view(shown, "2026")
+    content = scenarios(Visit(board=shown), "2026")
     ranked = [each.row.name for each in shown.standings("2026") if each.ranked]
-    assert [row.standing.row.name for row in view.rows] == ranked
-    for row in view.rows:
-        assert set(row.rmse_mm) == set(view.strata)
-    assert [stratum.behaviour for stratum in view.columns] == list(view.behaviours)
+    assert [row["standing"].row.name for row in content["rows"]] == ranked
+    strata = {(each["behaviour"], each["subject"]) for each in content["columns"]}
+    assert strata == {("smooth", "S1"), ("pause", "S2"), ("jerky", "S3"), ("changing_goal", "S5")}
+    for row in content["rows"]:
+        assert set(row["rmse_mm"]) == strata
+    assert [stratum["behaviour"] for stratum in content["columns"]] == content["behaviours"]
 
 
 def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
