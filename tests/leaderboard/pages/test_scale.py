@@ -19,7 +19,8 @@ from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.board import board_view
-from colift.leaderboard.views.policy import policy_view
+from colift.leaderboard.views.page import Visit
+from colift.leaderboard.views.policy import policy_page
 from playwright.sync_api import expect
 
 from ..rows import digest, make_entry, make_errors
@@ -88,7 +89,7 @@ def test_a_thousand_entries_take_no_more_queries_and_no_more_bytes_than_some_hun
         each.standings()
         with statements(each) as told:
             text = page_of(each)
-            policy_view(each, "1", digest("policy-0003"))
+            policy_page(Visit(board=each), "1", digest("policy-0003"))
         assert text.count("data-row=") == ROWS
         assert f"{rows} policies" in text
         counts.append(len(told))
