@@ -9,7 +9,7 @@ from typing import Any
 
 from colift.leaderboard.pages.table import PAGES
 from colift.leaderboard.service.app import create_app
-from colift.leaderboard.views.api import Operation, Schema, operations, schemas
+from colift.leaderboard.views.api import Part, operations, schemas
 from docutils import nodes
 from markdown_text import table
 from sphinx.application import Sphinx
@@ -42,36 +42,39 @@ def _document() -> dict[str, Any]:
         return app.openapi()
 
 
-def _operation(operation: Operation) -> str:
+def _operation(operation: Part) -> str:
     """Return the section of an operation."""
     return "\n\n".join(_parts(operation))
 
 
-def _parts(operation: Operation) -> Iterator[str]:
-    yield f"### `{operation.method} {operation.path}`"
-    yield operation.description
-    if operation.needs_token:
+def _parts(operation: Part) -> Iterator[str]:
+    yield f"### `{operation['method']} {operation['path']}`"
+    yield operation["description"]
+    if operation["needs_token"]:
         yield "Needs the header `Authorization: Bearer TOKEN`."
-    if operation.body:
-        yield f"Body: {operation.body}"
-    if operation.parameters:
+    if operation["body"]:
+        yield f"Body: {operation['body']}"
+    if operation["parameters"]:
         yield table(
             ("Parameter", "In", "Type", "Meaning"),
             [
-                (f"`{each.name}`", each.place, each.kind, each.meaning)
-                for each in operation.parameters
+                (f"`{each['name']}`", each["place"], each["kind"], each["meaning"])
+                for each in operation["parameters"]
             ],
         )
+    answers = operation["responses"]
     yield table(
         ("Response", "Meaning", "Content"),
-        [(each.status, each.meaning, ", ".join(each.kinds)) for each in operation.responses],
+        [(each["status"], each["meaning"], ", ".join(each["kinds"])) for each in answers],
     )
 
 
-def _schema(schema: Schema) -> str:
+def _schema(schema: Part) -> str:
     """Return the section of an object in bodies and responses."""
-    rows = [(f"`{each.name}`", each.kind, each.meaning) for each in schema.properties]
-    return f"### {schema.name}\n\n{schema.meaning}\n\n{table(('Key', 'Type', 'Meaning'), rows)}"
+    rows = [(f"`{each['name']}`", each["kind"], each["meaning"]) for each in schema["properties"]]
+    return (
+        f"### {schema['name']}\n\n{schema['meaning']}\n\n{table(('Key', 'Type', 'Meaning'), rows)}"
+    )
 
 
 def _pages() -> str:

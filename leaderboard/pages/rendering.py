@@ -33,10 +33,10 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     links
         Addresses of the other pages.
     content
-        The values for the template, by name; with a ``season``, or a ``view`` of one, also what
-        :func:`_of_season` returns.
+        The values for the template, by name; with a ``season`` also what :func:`_of_season`
+        returns.
     """
-    season = getattr(content.get("view"), "season", content.get("season"))
+    season = content.get("season")
     if season is not None:
         content |= _of_season(season)
     return _environment().get_template(template).render(links=links, **content)

@@ -1,115 +1,68 @@
 """The page of the API: the operations of its OpenAPI document, and their objects."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, Final
 
 from colift.leaderboard.client import API
 from colift.leaderboard.views.page import Content, Page, Visit
 
-
-@dataclass(frozen=True, kw_only=True)
-class Property:
-    """A key of an object, or a parameter of a request."""
-
-    name: str
-    kind: str
-    """Its type in a few words."""
-    meaning: str
-    place: str = ""
-    """``path`` or ``query``; empty for a key."""
+Part = dict[str, Any]
+"""An operation, an object, or a part of one."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Response:
-    """One kind of answer to an operation."""
+def operations(document: dict[str, Any]) -> Iterator[Part]:
+    """Yield the operations of an OpenAPI document, in its order: method, path, and the rest.
 
-    status: str
-    """HTTP status."""
-    meaning: str
-    kinds: tuple[str, ...]
-    """Media types with the type of the content in a few words."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Operation:
-    """A method on a path."""
-
-    method: str
-    path: str
-    description: str
-    needs_token: bool
-    """Whether it requires the header ``Authorization``."""
-    body: str
-    """Media types and meaning of the body; empty if it has none."""
-    parameters: tuple[Property, ...]
-    responses: tuple[Response, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Schema:
-    """An object in bodies and responses."""
-
-    name: str
-    meaning: str
-    properties: tuple[Property, ...]
-
-
-def operations(document: dict[str, Any]) -> Iterator[Operation]:
-    """Yield the operations of an OpenAPI document, in its order."""
+    ``body`` has media types and meaning of the body, and is empty without one. ``responses`` have
+    ``status``, ``meaning``, and ``kinds``: media types with the type of the content.
+    """
     for path, methods in document["paths"].items():
         for method, content in methods.items():
-            yield Operation(
-                method=method.upper(),
-                path=path,
-                description=content["description"],
-                needs_token="security" in content,
-                body=_body(content.get("requestBody")),
-                parameters=tuple(
-                    _property(each["name"], each, each["schema"], each["in"])
+            yield {
+                "method": method.upper(),
+                "path": path,
+                "description": content["description"],
+                "needs_token": "security" in content,
+                "body": _body(content.get("requestBody")),
+                "parameters": [
+                    {**_named(each["name"], each["schema"], each), "place": each["in"]}
                     for each in content.get("parameters", ())
-                ),
-                responses=tuple(
-                    _response(status, answer)
+                ],
+                "responses": [
+                    {
+                        "status": status,
+                        "meaning": answer["description"],
+                        "kinds": [
+                            f"{media}: {kind_of(each['schema'])}" if each.get("schema") else media
+                            for media, each in answer.get("content", {}).items()
+                        ],
+                    }
                     for status, answer in sorted(content["responses"].items())
-                ),
-            )
+                ],
+            }
 
 
-def schemas(document: dict[str, Any]) -> Iterator[Schema]:
-    """Yield the objects that an OpenAPI document describes, in its order."""
+def schemas(document: dict[str, Any]) -> Iterator[Part]:
+    """Yield the objects that an OpenAPI document describes, in its order, with their keys."""
     for name, content in document["components"]["schemas"].items():
-        yield Schema(
-            name=name,
-            meaning=content.get("description", ""),
-            properties=tuple(
-                _property(key, each, each) for key, each in content.get("properties", {}).items()
-            ),
-        )
+        yield {
+            "name": name,
+            "meaning": content.get("description", ""),
+            "properties": [
+                _named(key, each, each) for key, each in content.get("properties", {}).items()
+            ],
+        }
+
+
+def _named(name: str, schema: dict[str, Any], content: dict[str, Any]) -> Part:
+    """Return a key or a parameter: name, type in a few words, and meaning."""
+    return {"name": name, "kind": kind_of(schema), "meaning": content.get("description", "")}
 
 
 def _body(content: dict[str, Any] | None) -> str:
     if content is None:
         return ""
     return f"{', '.join(content['content'])}. {content.get('description', '')}".strip()
-
-
-def _property(
-    name: str, content: dict[str, Any], schema: dict[str, Any], place: str = ""
-) -> Property:
-    meaning = content.get("description", "")
-    return Property(name=name, kind=kind_of(schema), meaning=meaning, place=place)
-
-
-def _response(status: str, content: dict[str, Any]) -> Response:
-    return Response(
-        status=status,
-        meaning=content["description"],
-        kinds=tuple(
-            f"{media}: {kind_of(each['schema'])}" if each.get("schema") else media
-            for media, each in content.get("content", {}).items()
-        ),
-    )
 
 
 def kind_of(schema: dict[str, Any]) -> str:
@@ -140,7 +93,7 @@ PAGES: Final = (
         url="/api",
         view=_api,
         template="api.html",
-        meaning="The JSON interface; the same as this page of the documentation.",
+        meaning="The JSON interface, operation by operation.",
     ),
     Page(name="openapi", url=f"{API}/openapi.json"),
 )

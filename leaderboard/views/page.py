@@ -25,8 +25,8 @@ PARTS: Final[Mapping[str, str]] = {
 Content = Mapping[str, Any] | str | bytes
 """What a view returns: the values for its template by name, or the page itself.
 
-Every template also gets the name of its page as ``page``, and a ``season``: that of its ``view``,
-or the current one. A view may choose others, and another ``template``.
+Every template also gets the name of its page as ``page``, and the current ``season``. A view may
+return others, and another ``template``.
 """
 
 

@@ -1,2 +1,2 @@
 {% set html %}{% include "rows.html" %}{% endset %}
-window.coliftRows = {{ {"html": html, "rows": view.data.rows}|data }};
+window.coliftRows = {{ {"html": html, "rows": data.rows}|data }};

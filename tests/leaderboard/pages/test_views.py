@@ -15,7 +15,7 @@ from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
-from colift.leaderboard.views.board import board_view
+from colift.leaderboard.views.board import board_page
 from colift.leaderboard.views.compare import compare_page
 from colift.leaderboard.views.exports import standings_csv
 from colift.leaderboard.views.lifts import (
@@ -205,9 +205,9 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     add(board, "snail", 5.0, change=slow)
     add(board, "free", 1.0, change=unverified)
     board.standings()  # Computes the ranks.
-    view = board_view(board)
-    names = [[each.row.name for each in some] for some in (view.slow, view.out)]
-    assert ([each.standing.row.name for each in view.rows], *names) == (
+    view = board_page(board)
+    names = [[each.row.name for each in some] for some in (view["slow"], view["out"])]
+    assert ([each.standing.row.name for each in view["rows"]], *names) == (
         ["good"],
         ["snail"],
         ["free"],
