@@ -14,6 +14,7 @@ from colift.leaderboard.service.documentation import Documentation
 from colift.leaderboard.service.errors import Problem
 from colift.leaderboard.service.security import Rate, RateLimit
 from colift.leaderboard.service.slots import Slots
+from colift.leaderboard.views.page import PARTS
 from fastapi import Depends, Path, Query, Request
 
 PLAY: Final = "/play"
@@ -81,17 +82,15 @@ Service = Annotated[ServiceState, Depends(service_state)]
 """The type of a route's parameter."""
 
 
-SeasonName = Annotated[
-    str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$", description="Name of a season.")
-]
+SeasonName = Annotated[str, Path(pattern=f"^{PARTS['season']}$", description="Name of a season.")]
 Digest = Annotated[
-    str, Path(pattern="^[0-9a-f]{64}$", description="Digest of a submission's content.")
+    str, Path(pattern=f"^{PARTS['digest']}$", description="Digest of a submission's content.")
 ]
-JobId = Annotated[str, Path(pattern="^[0-9a-f]{32}$", description="A job.")]
+JobId = Annotated[str, Path(pattern=f"^{PARTS['job']}$", description="A job.")]
 SeasonAsked = Annotated[
     str | None,
     Query(
-        pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$",
+        pattern=f"^{PARTS['season']}$",
         description="Name of a season; by default the one that takes submissions.",
     ),
 ]

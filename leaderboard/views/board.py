@@ -1,7 +1,7 @@
 """The board page: rows of a season's table, and its picture."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, Final
 from weakref import WeakKeyDictionary
 
@@ -25,23 +25,12 @@ from colift.leaderboard.views.page import (
 )
 from colift.leaderboard.views.picture import PICTURED, pictures
 
+Reference = Mapping[str, Any]
+"""A line below the policies: the human-human baseline, or a ``bound``.
 
-@dataclass(frozen=True, kw_only=True)
-class Reference:
-    """A line below the policies: the human-human baseline, or a bound."""
-
-    bound: PublicBound | None
-    """None: the human-human baseline."""
-    rmse_mm: Estimate | None
-    ratio: float | None
-    """RMSE over that of the human-human baseline."""
-    means: Mapping[str, float | None]
-    """Means of the other metrics of a board; none on a part of the lifts."""
-
-    @property
-    def causal(self) -> bool:
-        """Whether it is the causal bound."""
-        return self.bound is not None and self.bound.causal
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
+baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
+"""
 
 
 def board_page(
@@ -102,7 +91,9 @@ def board_page(
         "out": (*table.sections["unverified"], *table.sections["out"]),
         "people": _people(human_human, strata, part),
         "bounds": bounds,
-        "causal": next((mm.mean for each in bounds if each.causal and (mm := each.rmse_mm)), None),
+        "causal": next(
+            (mm.mean for each in bounds if each["bound"].causal and (mm := each["rmse_mm"])), None
+        ),
         "human_human": human_human,
         "human_human_mm": {
             each: human_human_mean_rmse(strata, Part(behaviour=each, subject=None))
@@ -179,26 +170,25 @@ def _people(
         return None
     if part is None:
         rmse: Estimate | None = human_human.rmse_mm
-        return Reference(bound=None, rmse_mm=rmse, ratio=1.0, means=human_human.means)
+        return {"bound": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
     mean = human_human_mean_rmse(strata, part)
     rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
-    return Reference(bound=None, rmse_mm=rmse, ratio=ratio, means=dict.fromkeys(human_human.means))
+    means = dict.fromkeys(human_human.means)
+    return {"bound": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
 def _bound(bound: PublicBound, strata: Sequence[StratumScore], part: Part | None) -> Reference:
+    whole = {"rmse_mm": bound.rmse_mm, "ratio": bound.vs_human, "means": bound.means}
     if part is None:
-        return Reference(
-            bound=bound, rmse_mm=bound.rmse_mm, ratio=bound.vs_human, means=bound.means
-        )
+        return {"bound": bound, **whole}
     some = [stratum for stratum in strata if part.has(stratum)]
     lifts = sum(each.episodes for each in some)
-    means = dict.fromkeys(bound.means)
+    empty = {"bound": bound, "rmse_mm": None, "ratio": None, "means": dict.fromkeys(bound.means)}
     if not lifts:
-        return Reference(bound=bound, rmse_mm=None, ratio=None, means=means)
+        return empty
     mean = sum(bound.strata[each.behaviour, each.subject] * each.episodes for each in some) / lifts
     people = human_human_mean_rmse(some)
-    ratio = mean / people if people else None
-    return Reference(bound=bound, rmse_mm=known(mean), ratio=ratio, means=means)
+    return {**empty, "rmse_mm": known(mean), "ratio": mean / people if people else None}
 
 
 def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:

@@ -29,9 +29,9 @@ def standings_csv(board: Board, season: str | None = None) -> str:
     return str(rows.map(_harmless).to_csv(index=False, lineterminator="\n"))
 
 
-def standings_json(board: Board, season: str) -> str:
+def standings_plain(board: Board, season: str) -> list[dict[str, Any]]:
     """Return all rows as JSON: with rank group, time, submitter and events."""
-    table = [
+    return [
         {
             "section": each.section,
             "group": each.group,
@@ -42,7 +42,6 @@ def standings_json(board: Board, season: str) -> str:
         }
         for each in board.tables.read(season).rows
     ]
-    return json.dumps(table, indent=1) + "\n"
 
 
 def _harmless(value: object) -> object:
@@ -98,6 +97,8 @@ PAGES: Final = (
         name="json",
         url=API + "/standings?season={season}",
         file="data/{season}.json",
-        view=lambda visit, season: standings_json(visit.board, season),
+        view=lambda visit, season: (
+            json.dumps(standings_plain(visit.board, season), indent=1) + "\n"
+        ),
     ),
 )
