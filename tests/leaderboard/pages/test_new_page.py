@@ -41,9 +41,9 @@ print(json.dumps(found))
 def example() -> dict[Path, str]:
     """Return the files of the page in CONTRIBUTING.md, by their paths."""
     text = (ROOT / "CONTRIBUTING.md").read_text()
-    block = r"^`(leaderboard/\S+)`:\n\n```\w+\n(.*?)^```$"
+    block = r"^`(\S+)` in `(leaderboard/\S+)`:\n\n```\w+\n(.*?)^```$"
     blocks = re.findall(block, text, re.DOTALL | re.MULTILINE)
-    return {Path(path): content for path, content in blocks}
+    return {Path(folder, name): content for name, folder, content in blocks}
 
 
 @pytest.fixture(scope="module")
