@@ -43,24 +43,15 @@ class Column:
     rmse_mm: tuple[Estimate, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Pair:
-    """Two policies."""
-
-    a: RankedRow
-    b: RankedRow
-    difference: PairedDifference | None
-    """RMSE of the first minus that of the second [mm]; None if the single lifts of one are
-    missing."""
-
-
 def compare_page(visit: Visit, season: str) -> Content:
     """Return the comparison of the chosen policies, in the order in which they were chosen.
 
     Those that are not in the ranking are left out, and those beyond :data:`.CHOSEN`; if none are
     chosen, the first two of the table are compared. A site compares the best :data:`ALL`, and shows
-    only some of them at a time. ``choice`` are the policies that can be chosen here, by ``names``;
-    ``human_human_mm`` is the human-human baseline's mean RMSE on each part [mm].
+    only some of them at a time. A ``difference`` is the RMSE of ``a`` minus that of ``b`` [mm], or
+    None if the single lifts of one are missing. ``choice`` are the policies that can be chosen
+    here, by ``names``; ``human_human_mm`` is the human-human baseline's mean RMSE on each part
+    [mm].
     """
     board, digests = visit.board, visit.chosen
     info = find_season(board, season)
@@ -98,7 +89,7 @@ def compare_page(visit: Visit, season: str) -> Content:
         "columns": columns,
         "human_human_mm": human_human,
         "pairs": tuple(
-            Pair(a=ranked[a], b=ranked[b], difference=each)
+            {"a": ranked[a], "b": ranked[b], "difference": each}
             for (a, b), each in zip(itertools.combinations(runs, 2), pairs, strict=True)
         ),
         "axis": make_axis(
