@@ -62,7 +62,8 @@ class Page:
     Raises
     ------
     ValueError
-        If the address has an unknown part, or one in the navigation has another than the season.
+        If the address has an unknown part, its file has others or no season, or a page of the
+        navigation has another part than the season.
     """
 
     name: str
@@ -91,13 +92,19 @@ class Page:
         for part in self.parts:
             if part not in PARTS:
                 raise ValueError(f"page {self.name!r}: {part!r} is none of {', '.join(PARTS)}")
+        if self.file and self.parts != _parts(self.file):
+            raise ValueError(f"page {self.name!r}: {self.url} and {self.file} need the same parts")
+        if self.file and self.parts and self.parts[0] != "season":
+            raise ValueError(
+                f"page {self.name!r}: the first part of {self.file} must be {{season}}"
+            )
         if self.menu and set(self.parts) - {"season"}:
             raise ValueError(f"page {self.name!r} is in the navigation: it can be of a season only")
 
     @property
     def parts(self) -> tuple[str, ...]:
         """The parts of its address, in their order."""
-        return tuple(re.findall(r"{(\w+)", self.url or self.file))
+        return _parts(self.url or self.file)
 
     @property
     def served(self) -> bool:
@@ -107,6 +114,10 @@ class Page:
     def fits(self, values: Mapping[str, str]) -> bool:
         """Return whether the values of its parts can be those of an address."""
         return all(re.fullmatch(PARTS[name], value) for name, value in values.items())
+
+
+def _parts(form: str) -> tuple[str, ...]:
+    return tuple(re.findall(r"{(\w+)", form))
 
 
 def ordered_seasons(board: Board) -> tuple[SeasonInfo, ...]:

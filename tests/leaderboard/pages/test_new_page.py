@@ -92,6 +92,18 @@ def test_a_page_of_an_unknown_part_is_refused():
         Page(name="speed", url="/speed/{robot}")
 
 
+@pytest.mark.parametrize(
+    ("url", "file", "told"),
+    [
+        ("/seasons/{season}/speed", "speed.html", "need the same parts"),
+        ("/speed/{digest}", "speed-{digest}.html", "the first part of .* must be {season}"),
+    ],
+)
+def test_a_file_that_a_site_cannot_name_is_refused(url, file, told):
+    with pytest.raises(ValueError, match=f"'speed': .*{told}"):
+        Page(name="speed", url=url, file=file)
+
+
 def test_a_page_of_the_navigation_needs_no_more_than_a_season():
     with pytest.raises(ValueError, match="'speed' is in the navigation"):
         Page(name="speed", url="/seasons/{season}/{digest}/speed", menu="Speed")
