@@ -17,6 +17,7 @@ from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.practice.season_import import open_to_read
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.season import SeasonInfo
+from colift.leaderboard.views.exports import standings_plain
 
 
 def board(
@@ -92,6 +93,7 @@ def _waiting(place: Board) -> str:
 def _content(place: Board, season: str | None) -> dict[str, Any]:
     info: SeasonInfo = place.season_info(season)
     human_human = place.human_human(info.name)
+    place.standings(info.name)  # With its own ranks.
     return {
         "season": {**vars(info), "began_at": info.began_at.isoformat()},
         "human_human": None
@@ -100,15 +102,5 @@ def _content(place: Board, season: str | None) -> dict[str, Any]:
             "rmse_mm": {"mean": human_human.rmse_mm.mean, "ci95": list(human_human.rmse_mm.ci95)},
             **human_human.means,
         },
-        "rows": [
-            {
-                "section": each.section,
-                "group": each.group,
-                "at": each.at.isoformat(),
-                "submitter": each.submitter,
-                "row": each.row.plain(),
-                "events": [event.plain() for event in each.events],
-            }
-            for each in place.standings(info.name)
-        ],
+        "rows": standings_plain(place, info.name),
     }

@@ -23,9 +23,8 @@ from colift.cli.options import Jobs
 from colift.cli.remedies import argument
 from colift.cli.tables.row import SectionRow, row_table, row_text
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.client import API, RemoteBoard
+from colift.leaderboard.client import RemoteBoard
 from colift.leaderboard.evaluation.progress import Callbacks
-from colift.leaderboard.pages.links import ServiceLinks
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
@@ -159,9 +158,11 @@ def _submit_to_web(
     current = board.suite()
     check_season_suite(url, current, suite)
     _check(submission, folder, current, jobs)
+    from colift.leaderboard.pages.links import Links  # With all pages, which take long to import.
+
     job = board.submit(submission.folder)
-    links = ServiceLinks(board.url.rstrip("/"))
-    page = f"{links.root}/jobs/{job['id']}"
+    links = Links(board.url.rstrip("/"))
+    page = links.job(job["id"])
     print(f"submitted; job {page}", flush=True)
     try:
         job = _followed(board, job)
@@ -181,8 +182,8 @@ def _submit_to_web(
             for each in _ranked(board, season, digest)
         ),
     )
-    bundle = f"{links.root}{API}/entries/{season}/{digest}/bundle.zip"
-    print(f"Bundle of the public run: {bundle}\nIts page: {links.policy(season, digest)}")
+    print(f"Bundle of the public run: {links.bundle(season, digest)}")
+    print(f"Its page: {links.policy(season, digest)}")
 
 
 def _ranked(board: RemoteBoard, season: str, digest: str) -> list[dict[str, Any]]:

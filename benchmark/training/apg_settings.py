@@ -32,27 +32,28 @@ class ApgSettings:
     updates: int = 800
     """Steps of the optimiser."""
     lifts: int = 4000
-    """Lifts from which batches are drawn."""
+    """Lifts drawn at the beginning."""
     batch: int = 256
-    """Lifts of an update."""
+    """Lifts per update, chosen from those drawn."""
     units: int = 64
-    """Gated recurrent units."""
+    """Gated recurrent units of the network."""
     rate: float = 3e-3
-    """Learning rate at its highest; it rises for 5 % of the updates, then falls as a cosine."""
+    """Learning rate at its highest. It rises for 5 % of the updates, then falls as a cosine."""
     wide: float = 0.2
-    """For a level table: share of lifts with people, bodies and sensors from wide ranges. For tasks
-    with hurdles and poses: extension of the ranges of people's manners beyond the population's.
-    With a ball, people always have the population's manners, since others fling it about."""
+    """Share of people from wide ranges; in tasks with touch: their width. For a level table: share
+    of lifts with people, bodies and sensors from wide ranges. For tasks with hurdles and poses:
+    extension of the ranges of people's manners beyond the population's. With a ball, people always
+    have the population's manners, since others fling it about."""
     varied: float = 0.2
-    """Variation of the arms in the last update; see :meth:`varied_in`."""
+    """Variation of the robot's arms in the last update. See :meth:`varied_in`."""
     encoders: float = 1e-4
-    """Noise of the observed height and command of the robot's hand [m], which the benchmark does
-    not have: at most the resolution of a NAO's joints (12 bits per turn, at 0.2 m). Without it a
-    policy learns to rely on micrometres. Only for a level table."""
+    """Noise of the hand's encoders, in m. It is in the observed height and command of the robot's
+    hand, and not in the benchmark: at most the resolution of a NAO's joints (12 bits per turn, at
+    0.2 m). Without it a policy learns to rely on micrometres. Only for a level table."""
     smoothness: float = 0.05
-    """Cost of bends, relative to the RMSE; only for a level table."""
+    """Weight of the cost of bends beside the RMSE. Only for a level table."""
     gentleness: float = 0.0
-    """Cost of the force at the human's hands [mm/N]; only for a level table."""
+    """Cost of the force at the human's hands, in mm/N. Only for a level table."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""

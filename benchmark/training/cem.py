@@ -41,13 +41,13 @@ class CemSettings:
     """
 
     generations: int = 20
-    """Times that the distribution moves."""
+    """Number of generations. The distribution moves in each."""
     population: int = 40
-    """Candidates of a generation."""
+    """Candidates per generation."""
     elite: int = 10
-    """Best candidates, to which the distribution moves."""
+    """Best candidates, on which the next are modelled."""
     lifts: int = 12
-    """Lifts of a generation, the same for all candidates."""
+    """Lifts per generation. They are the same for all candidates."""
     steps: int = 6
     """Steps of the human's motion that the network sees."""
     hidden: int = 2

@@ -32,13 +32,13 @@ class CloneSettings:
     data: str = ""
     """Digest of the data."""
     updates: int = 10_000
-    """Steps of the optimiser; a multiple of 500."""
+    """Updates of the networks, a multiple of 500."""
     batch: int = 256
     """Steps of the data in each."""
     rate: float = 1e-3
     """First learning rate of Adam; it falls to zero by a cosine."""
     hidden: tuple[int, ...] = (64, 64)
-    """Units of the hidden layers."""
+    """Units of the hidden layers of all networks."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -46,7 +46,7 @@ class CloneSettings:
 
 
 @dataclass(frozen=True, kw_only=True)
-class IqlSettings:
+class IqlSettings(CloneSettings):
     """Settings of the training.
 
     Raises
@@ -55,28 +55,18 @@ class IqlSettings:
         If one is out of range.
     """
 
-    data: str = ""
-    """Digest of the data."""
-    updates: int = 10_000
-    """Steps of the optimiser; a multiple of 500."""
-    batch: int = 256
-    """Steps of the data in each."""
-    rate: float = 1e-3
-    """First learning rate of Adam; it falls to zero by a cosine."""
-    hidden: tuple[int, ...] = (64, 64)
-    """Units of the hidden layers of all networks."""
     gamma: float = 0.7
     """Discount per step."""
     expectile: float = 0.9
-    """tau: 0.5 is the mean, 1 the best."""
+    """0.5: values of the mean action; 1: of the best. It is called tau in the literature."""
     beta: float = 3.0
-    """Weight of an advantage; 0 is behaviour cloning."""
+    """Weight of better actions; 0 clones. It multiplies an advantage."""
     slow: float = 0.005
     """Share of a network that its slow copy takes over in an update."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
-        check_updates(self.updates)
+        super().__post_init__()
         if not 0 <= self.gamma < 1:
             raise InputError(f"gamma must be in [0, 1), got {self.gamma}")
         if not 0.5 <= self.expectile < 1:

@@ -30,11 +30,11 @@ class PpoSettings:
     """
 
     updates: int = 120
-    """Number of rounds in which lifts are played and learned from."""
+    """Number of updates, each from newly played lifts."""
     pool: int = 3000
-    """People who are drawn in the beginning, each for one lift."""
+    """Lifts drawn at the beginning. Each has another person."""
     lifts: int = 512
-    """Lifts of an update, with people from the pool."""
+    """Lifts per update. Their people are from the pool."""
     steps: int = 20
     """Steps of the human's motion that the network sees."""
     hidden: int = 64
@@ -76,7 +76,8 @@ class SelfPlaySettings(PpoSettings):
     """
 
     haste: float = 0.2
-    """Cost of a step for the person at 1 cm from the goal; 1 is the cost of a step 1 cm apart."""
+    """Cost to the person of the distance from the goal. It is that of a step at 1 cm from it; 1 is
+    the cost of a step 1 cm apart."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -96,7 +97,7 @@ class CoPlaySettings(SelfPlaySettings):
     """
 
     population: int = 4
-    """Number of trainings by self-play from which people are kept."""
+    """Trainings by self-play first; each gives 3 people."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""

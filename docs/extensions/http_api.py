@@ -1,4 +1,4 @@
-"""The directive ``http_api``: the HTTP interface of a board, from its OpenAPI document."""
+"""The directive ``http_api``: a board's HTTP interface, from its OpenAPI document, and pages."""
 
 import functools
 import logging
@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from colift.leaderboard.pages.table import PAGES
 from colift.leaderboard.service.app import create_app
-from colift.leaderboard.service.openapi import Operation, Schema, operations, schemas
+from colift.leaderboard.views.api import Part, operations, schemas
 from docutils import nodes
 from markdown_text import table
 from sphinx.application import Sphinx
@@ -16,16 +17,16 @@ from sphinx.util.docutils import SphinxDirective
 
 
 class HttpApi(SphinxDirective):
-    """``operations``: a section for each method and path; ``schemas``: one for each object."""
+    """``operations``: a section each; ``schemas``: one for each object; ``pages``: a table."""
 
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
         """Return the sections."""
-        document = _document()
         parts = {
-            "operations": lambda: map(_operation, operations(document)),
-            "schemas": lambda: map(_schema, schemas(document)),
+            "operations": lambda: map(_operation, operations(_document())),
+            "schemas": lambda: map(_schema, schemas(_document())),
+            "pages": lambda: [_pages()],
         }
         text = "\n\n".join(parts[self.arguments[0]]())
         return self.parse_text_to_nodes(text, allow_section_headings=True)
@@ -41,36 +42,49 @@ def _document() -> dict[str, Any]:
         return app.openapi()
 
 
-def _operation(operation: Operation) -> str:
+def _operation(operation: Part) -> str:
     """Return the section of an operation."""
     return "\n\n".join(_parts(operation))
 
 
-def _parts(operation: Operation) -> Iterator[str]:
-    yield f"### `{operation.method} {operation.path}`"
-    yield operation.description
-    if operation.needs_token:
+def _parts(operation: Part) -> Iterator[str]:
+    yield f"### `{operation['method']} {operation['path']}`"
+    yield operation["description"]
+    if operation["needs_token"]:
         yield "Needs the header `Authorization: Bearer TOKEN`."
-    if operation.body:
-        yield f"Body: {operation.body}"
-    if operation.parameters:
+    if operation["body"]:
+        yield f"Body: {operation['body']}"
+    if operation["parameters"]:
         yield table(
             ("Parameter", "In", "Type", "Meaning"),
             [
-                (f"`{each.name}`", each.place, each.kind, each.meaning)
-                for each in operation.parameters
+                (f"`{each['name']}`", each["place"], each["kind"], each["meaning"])
+                for each in operation["parameters"]
             ],
         )
+    answers = operation["responses"]
     yield table(
         ("Response", "Meaning", "Content"),
-        [(each.status, each.meaning, ", ".join(each.kinds)) for each in operation.responses],
+        [(each["status"], each["meaning"], ", ".join(each["kinds"])) for each in answers],
     )
 
 
-def _schema(schema: Schema) -> str:
+def _schema(schema: Part) -> str:
     """Return the section of an object in bodies and responses."""
-    rows = [(f"`{each.name}`", each.kind, each.meaning) for each in schema.properties]
-    return f"### {schema.name}\n\n{schema.meaning}\n\n{table(('Key', 'Type', 'Meaning'), rows)}"
+    rows = [(f"`{each['name']}`", each["kind"], each["meaning"]) for each in schema["properties"]]
+    return (
+        f"### {schema['name']}\n\n{schema['meaning']}\n\n{table(('Key', 'Type', 'Meaning'), rows)}"
+    )
+
+
+def _pages() -> str:
+    """Return the table of the pages of a service, with their files in a site."""
+    rows = [
+        (f"`{page.url}`", f"`{page.file}`" if page.file else "", page.meaning)
+        for page in PAGES.values()
+        if page.served
+    ]
+    return table(("Address", "File of a site", "Content"), rows)
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

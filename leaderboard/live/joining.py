@@ -5,14 +5,15 @@ import json
 from typing import Final
 
 from colift.leaderboard.live import limits
+from colift.leaderboard.live.group import SEATS
 from colift.leaderboard.live.page import REFUSED, Page
 from colift.leaderboard.live.play import Play, play_of
-from colift.leaderboard.live.sessions import LiveSession, Role
+from colift.leaderboard.live.sessions import ROLES, LiveSession, Role
 from colift.leaderboard.service.security import client_of
 from fastapi import APIRouter, WebSocket
 
-SEATS: Final[dict[str, Role]] = {"0": "host", "1": "person", "spectator": "spectator"}
-"""Roles by the seats that pages request."""
+ASKED: Final[dict[str, Role]] = {str(SEATS.get(role, role)): role for role in ROLES}
+"""Roles by the seats that pages request: a number, or ``spectator``."""
 
 NOT_HERE: Final = "There is no such session, or this link is not for it."
 
@@ -51,7 +52,7 @@ async def _admitted(play: Play, text: str | None) -> tuple[LiveSession | None, R
     try:
         asked = json.loads(text or "")
         name, secret, seat = (str(asked[each]) for each in ("session", "secret", "seat"))
-        wanted = SEATS[seat]
+        wanted = ASKED[seat]
         joining = asked["type"] == "join"
     except (ValueError, RecursionError, KeyError, TypeError):
         return None, None

@@ -13,7 +13,6 @@ from colift.leaderboard.service.errors import problem
 from colift.leaderboard.service.security import client_of, seconds
 from fastapi import APIRouter, Path, Request, Response
 from fastapi.responses import HTMLResponse
-from pydantic import BaseModel
 
 ISOLATED: Final = {"Cross-Origin-Embedder-Policy": "require-corp"}
 """Isolates the page, together with the other headers: its clock is exact to 5 us, not to 100."""
@@ -22,22 +21,6 @@ LIFT: Final = re.compile(r"[0-9]{3,6}")
 """Number of a lift, as in the name of its folder."""
 
 router: Final = APIRouter()
-
-
-class NewSession(BaseModel):
-    """The answer to a new session."""
-
-    session: str
-    secret: str
-
-
-class PlayHealth(BaseModel):
-    """The number of rooms."""
-
-    status: str = "ok"
-    rooms: int
-    most: int
-    waiting: int
 
 
 @router.get("/", response_class=HTMLResponse)
@@ -59,10 +42,11 @@ def page(request: Request) -> HTMLResponse:
 
 
 @router.get("/api/health")
-async def play_health(request: Request) -> PlayHealth:
+async def play_health(request: Request) -> dict[str, str | int]:
     """Confirm that the web process answers, with the number of rooms."""
     play = play_of(request)
-    return PlayHealth(rooms=play.keeper.rooms, most=play.config.rooms, waiting=play.keeper.waiting)
+    rooms, waiting = play.keeper.rooms, play.keeper.waiting
+    return {"status": "ok", "rooms": rooms, "most": play.config.rooms, "waiting": waiting}
 
 
 @router.get("/api/geometry")
@@ -72,7 +56,7 @@ async def scene(request: Request) -> Response:
 
 
 @router.post("/api/sessions")
-async def new_session(request: Request) -> NewSession:
+async def new_session(request: Request) -> dict[str, str]:
     """Create a session, and return the host's secret."""
     play = play_of(request)
     if "origin" in request.headers and not limits.same_origin(request):
@@ -82,7 +66,7 @@ async def new_session(request: Request) -> NewSession:
         message = f"too many sessions from your address; try again in {seconds(wait)} s"
         raise problem(429, message, {"Retry-After": seconds(wait)})
     session = await asyncio.to_thread(play.sessions.make)
-    return NewSession(session=session.name, secret=session.secret("host"))
+    return {"session": session.name, "secret": session.secret("host")}
 
 
 @router.get("/api/sessions/{name}/lifts/{lift}/replay")

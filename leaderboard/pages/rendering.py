@@ -1,24 +1,23 @@
 """Pages from views, by Jinja templates."""
 
 import functools
-import io
-import tempfile
+from collections.abc import Mapping
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 from colift.agents.errors import InputError
 from colift.agents.extras import how_to_install
-from colift.agents.submissions.new import PLACEHOLDER, write_template
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.drawn import error_words
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.rendering.page import templates
 from colift.leaderboard.pages.formats import FILTERS
 from colift.leaderboard.pages.links import Links
+from colift.leaderboard.pages.table import NAVIGATION
 from colift.leaderboard.records.metrics import board_metrics, picture_axes, suite_metrics
+from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.replays.html import script_json
-from colift.leaderboard.storage.archive import pack_archive
+from colift.leaderboard.views.page import Page, Visit, find_season
 from colift.leaderboard.views.task import task_view
 from jinja2 import Environment
 from markupsafe import Markup
@@ -34,22 +33,56 @@ def render_page(template: str, links: Links, **content: Any) -> str:
     links
         Addresses of the other pages.
     content
-        The values for the template, by name. It also gets the metrics of the season's suite:
-        ``metrics`` have columns beside the ``leading`` one, ``second`` is the first of them;
-        ``error_words``, a description of the drawn error; and ``task``, the :class:`.TaskView`.
+        The values for the template, by name; with a ``season`` also what :func:`_of_season`
+        returns.
     """
-    season = content.get("season") or getattr(content.get("view"), "season", None)
+    season = content.get("season")
     if season is not None:
-        leading, second = picture_axes(season.suite)
-        metrics = suite_metrics(season.suite)
-        content |= {
-            "metrics": board_metrics(season.suite),
-            "leading": leading,
-            "second": second,
-            "error_words": error_words(drawn_series(metrics)),
-            "task": task_view(season.suite),
-        }
+        content |= _of_season(season)
     return _environment().get_template(template).render(links=links, **content)
+
+
+def show(page: Page, links: Links, visit: Visit, values: Mapping[str, str]) -> str | bytes:
+    """Return a page of the table.
+
+    Parameters
+    ----------
+    page, values
+        The page, and the parts of its address by name.
+    links
+        Addresses of the other pages.
+    visit
+        What it is made for.
+
+    Raises
+    ------
+    NoPageError
+        If there is nothing at this address.
+    """
+    if page.view is None:
+        raise ValueError(f"page {page.name!r} has no view")
+    made = page.view(visit, **values)
+    if isinstance(made, str | bytes):
+        return made
+    content = {"page": page.name, "season": find_season(visit.board), **made}
+    return render_page(content.pop("template", page.template), links, **content)
+
+
+def _of_season(season: SeasonInfo) -> dict[str, Any]:
+    """Return the ``season``, and what templates show of its suite.
+
+    ``metrics`` have columns beside the ``leading`` one, ``second`` is the first of them;
+    ``error_words`` describe the drawn error; ``task`` is the :class:`.TaskView`.
+    """
+    leading, second = picture_axes(season.suite)
+    return {
+        "season": season,
+        "metrics": board_metrics(season.suite),
+        "leading": leading,
+        "second": second,
+        "error_words": error_words(drawn_series(suite_metrics(season.suite))),
+        "task": task_view(season.suite),
+    }
 
 
 @functools.cache
@@ -73,16 +106,7 @@ def prose(name: str) -> Markup:
 @functools.cache
 def _environment() -> Environment:
     made = templates(__package__)
-    made.filters.update(FILTERS, svg=svg, data=lambda content: Markup(script_json(content)))
+    made.filters.update(FILTERS, svg=svg, prose=prose)
+    made.filters["data"] = lambda content: Markup(script_json(content))
+    made.globals.update(navigation=NAVIGATION, page="")
     return made
-
-
-@functools.cache
-def template_archive() -> bytes:
-    """Return the files that ``colift new`` writes, as a zip archive."""
-    buffer = io.BytesIO()
-    with tempfile.TemporaryDirectory(prefix="colift-") as temporary:
-        folder = Path(temporary, PLACEHOLDER)
-        write_template(folder)
-        pack_archive(folder, buffer)
-    return buffer.getvalue()

@@ -12,6 +12,7 @@ from colift.leaderboard.board.standings import RankedRow, Section
 from colift.leaderboard.records.job import Job, State
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import Event
+from colift.leaderboard.views.page import PARTS
 from pydantic import BaseModel, ConfigDict, Field
 
 
@@ -84,7 +85,7 @@ class EntryAnswer(Answer):
 class JobSummary(Answer):
     """A submission and its progress."""
 
-    id: str = Field(pattern="^[0-9a-f]{32}$")
+    id: str = Field(pattern=f"^{PARTS['job']}$")
     season: str
     submission: str
     """Digest of its content."""

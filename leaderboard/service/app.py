@@ -9,12 +9,13 @@ from typing import Final
 
 import anyio.to_thread
 from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.client import API
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import Queue, Quota
 from colift.leaderboard.service import page_routes as pages
-from colift.leaderboard.service import published, reference, submitting
+from colift.leaderboard.service import published, submitting
 from colift.leaderboard.service.answers import Health
-from colift.leaderboard.service.dependencies import PREFIX, Rates, Service, ServiceState
+from colift.leaderboard.service.dependencies import Rates, Service, ServiceState
 from colift.leaderboard.service.documentation import PLACE, Documentation, Pages
 from colift.leaderboard.service.errors import FaultHandler, Problem, answer_errors, log
 from colift.leaderboard.service.ranker import Ranker
@@ -93,7 +94,7 @@ def create_app(
         version=version("colift"),
         summary="Standings, submissions and bundles of a leaderboard of cooperative lifting.",
         lifespan=lifespan,
-        openapi_url=f"{PREFIX}/openapi.json",
+        openapi_url=f"{API}/openapi.json",
         docs_url=None,  # FastAPI's own pages load scripts from elsewhere.
         redoc_url=None,
     )
@@ -113,7 +114,6 @@ def create_app(
     app.add_middleware(FaultHandler)
     app.add_middleware(Guard, rate=rates.address)
     app.include_router(api_router())
-    app.include_router(reference.router)
     app.include_router(pages.router)
     app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
     if docs is not None and docs.folder is not None:
@@ -125,7 +125,7 @@ def create_app(
 def api_router() -> APIRouter:
     """Return the routes of the JSON interface, under ``/api/v1``."""
     router = APIRouter(
-        prefix=PREFIX,
+        prefix=API,
         responses={
             422: {"model": Problem, "description": "A value is not allowed."},
             429: {"model": Problem, "description": "Too many requests; see Retry-After."},

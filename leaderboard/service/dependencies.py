@@ -7,12 +7,14 @@ from urllib.parse import urlsplit
 
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.client import API
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.service.documentation import Documentation
 from colift.leaderboard.service.errors import Problem
 from colift.leaderboard.service.security import Rate, RateLimit
 from colift.leaderboard.service.slots import Slots
+from colift.leaderboard.views.page import PARTS
 from fastapi import Depends, Path, Query, Request
 
 PLAY: Final = "/play"
@@ -80,19 +82,15 @@ Service = Annotated[ServiceState, Depends(service_state)]
 """The type of a route's parameter."""
 
 
-PREFIX: Final = "/api/v1"
-
-SeasonName = Annotated[
-    str, Path(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$", description="Name of a season.")
-]
+SeasonName = Annotated[str, Path(pattern=f"^{PARTS['season']}$", description="Name of a season.")]
 Digest = Annotated[
-    str, Path(pattern="^[0-9a-f]{64}$", description="Digest of a submission's content.")
+    str, Path(pattern=f"^{PARTS['digest']}$", description="Digest of a submission's content.")
 ]
-JobId = Annotated[str, Path(pattern="^[0-9a-f]{32}$", description="A job.")]
+JobId = Annotated[str, Path(pattern=f"^{PARTS['job']}$", description="A job.")]
 SeasonAsked = Annotated[
     str | None,
     Query(
-        pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,39}$",
+        pattern=f"^{PARTS['season']}$",
         description="Name of a season; by default the one that takes submissions.",
     ),
 ]
@@ -127,7 +125,7 @@ UNKNOWN: Final[dict[int | str, dict[str, Any]]] = {
 
 def api_root(request: Request) -> str:
     """Return the address of the API for the client: a proxy may have put it below a path."""
-    return f"{request.scope.get('root_path', '').rstrip('/')}{PREFIX}"
+    return f"{request.scope.get('root_path', '').rstrip('/')}{API}"
 
 
 def origin_of(request: Request) -> str:
@@ -136,11 +134,11 @@ def origin_of(request: Request) -> str:
     return f"{parts.scheme}://{parts.netloc}" if parts.netloc else ""
 
 
-def links_of(request: Request) -> ServiceLinks:
+def links_of(request: Request) -> Links:
     """Return the addresses of the pages for the client."""
     root = str(request.scope.get("root_path", "")).rstrip("/")
     state = service_state(request)
-    return ServiceLinks(
+    return Links(
         root,
         "" if state.docs is None else state.docs.link(root),
         f"{root}{PLAY}/" if state.play else "",

@@ -12,13 +12,10 @@ from typing import Any, Final
 from colift.agents.agent import FRAME
 from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
-from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
-from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
-from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
@@ -29,6 +26,7 @@ from colift.leaderboard.views.lifts import (
     stratum_scores,
     version,
 )
+from colift.leaderboard.views.page import Content, Page, Visit, find_season
 
 ALL: Final = 40
 """Number of policies, from the best, in a page that shows only some of them at a time."""
@@ -46,79 +44,18 @@ class Column:
     rmse_mm: tuple[Estimate, ...]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Pair:
-    """Two policies."""
+def compare_page(visit: Visit, season: str) -> Content:
+    """Return the comparison of the chosen policies, in the order in which they were chosen.
 
-    a: RankedRow
-    b: RankedRow
-    difference: PairedDifference | None
-    """RMSE of the first minus that of the second [mm]; None if the single lifts of one are
-    missing."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class CompareView:
-    """The content of the compare page."""
-
-    season: SeasonInfo
-    choice: tuple[RankedRow, ...]
-    """The policies that can be chosen here: the first of the ranking, and those that are shown."""
-    total: int
-    """Number of policies in the ranking."""
-    names: Mapping[str, str]
-    """What each of them is called here, by its digest; see :func:`_distinct_names`."""
-    parts: tuple[Part, ...]
-    columns: tuple[Column, ...]
-    human_human_mm: tuple[float | None, ...]
-    """The human-human baseline's mean RMSE on each part [mm]."""
-    pairs: tuple[Pair, ...]
-    axis: Axis
-    lifts: tuple[PublicLift, ...]
-    """The public lifts, of the first column; all have the same."""
-    lift_rmse_mm: tuple[tuple[float, ...], ...]
-    """RMSE [mm] of each column on each lift; empty where its single lifts are missing."""
-    curves: tuple[Mapping[str, Sequence[int]], ...]
-    """For each column, the lifts that another column also has, by their names: the shown error,
-    every :data:`EVERY` frames [0.1 mm]."""
-
-    @property
-    def data(self) -> dict[str, Any]:
-        """The data that the page's script draws: each policy's lifts, and errors over time."""
-        return {
-            "lifts": [[lift.behaviour, lift.subject, lift.seed] for lift in self.lifts],
-            "policies": [
-                {
-                    "p": column.standing.row.submission,
-                    "name": self.names[column.standing.row.submission],
-                    "rmse": [round(each, 3) for each in rmse],
-                    "curves": dict(curves),
-                }
-                for column, rmse, curves in zip(
-                    self.columns, self.lift_rmse_mm, self.curves, strict=True
-                )
-            ],
-            "step": EVERY * FRAME,
-        }
-
-
-def compare_view(
-    board: Board, season: str | None = None, digests: Sequence[str] | None = None
-) -> CompareView | None:
-    """Return the comparison of some policies; None if there is no such season.
-
-    Parameters
-    ----------
-    board, season
-        The table.
-    digests
-        The submissions; those that are not in the ranking are left out, and those beyond
-        :data:`.CHOSEN`. An empty sequence compares the first two of the table. None compares the
-        best :data:`ALL`, for a page that shows only some of them at a time.
+    Those that are not in the ranking are left out, and those beyond :data:`.CHOSEN`; if none are
+    chosen, the first two of the table are compared. A site compares the best :data:`ALL`, and shows
+    only some of them at a time. A ``difference`` is the RMSE of ``a`` minus that of ``b`` [mm], or
+    None if the single lifts of one are missing. ``choice`` are the policies that can be chosen
+    here, by ``names``; ``human_human_mm`` is the human-human baseline's mean RMSE on each part
+    [mm].
     """
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
+    board, digests = visit.board, visit.chosen
+    info = find_season(board, season)
     ranking = board.tables.read(info.name).ranking
     ranked = {each.row.submission: each for each in ranking}
     if digests is None:
@@ -142,29 +79,54 @@ def compare_view(
     )
     human_human = tuple(human_human_mean(part.of(strata)) for part in parts)
     pairs = _differences(tuple((path, version(path)) for path in runs.values()))
-    names = itertools.combinations(runs, 2)
-    return CompareView(
-        season=info,
-        choice=choice,
-        total=len(ranking),
-        names=_distinct_names(ranking, choice),
-        parts=parts,
-        columns=columns,
-        human_human_mm=human_human,
-        pairs=tuple(
-            Pair(a=ranked[a], b=ranked[b], difference=each)
-            for (a, b), each in zip(names, pairs, strict=True)
+    names = _distinct_names(ranking, choice)
+    return {
+        "season": info,
+        "asked": digests,
+        "choice": choice,
+        "total": len(ranking),
+        "names": names,
+        "parts": parts,
+        "columns": columns,
+        "human_human_mm": human_human,
+        "pairs": tuple(
+            {"a": ranked[a], "b": ranked[b], "difference": each}
+            for (a, b), each in zip(itertools.combinations(runs, 2), pairs, strict=True)
         ),
-        axis=make_axis(
+        "axis": make_axis(
             [each for column in columns for each in column.rmse_mm],
             [each for each in human_human if each is not None],
         ),
-        lifts=next(filter(None, map(public_lifts, runs.values())), ()),
-        lift_rmse_mm=tuple(
-            tuple(lift.rmse_mm for lift in public_lifts(path)) for path in runs.values()
-        ),
-        curves=_shared([_errors(path) for path in runs.values()]),
-    )
+        "data": _drawn(list(runs.values()), columns, names),
+    }
+
+
+def _drawn(
+    bundles: Sequence[Path], columns: Sequence[Column], names: Mapping[str, str]
+) -> dict[str, Any]:
+    """Return the data that the page's script draws: each policy's lifts, and errors over time.
+
+    The lifts are those of the first column, since all have the same; ``rmse`` is empty where the
+    single lifts of a policy are missing. ``curves`` has, by its name, each lift that another policy
+    also has: the shown error, every :data:`EVERY` frames [0.1 mm].
+    """
+    lifts = [public_lifts(path) for path in bundles]
+    curves = _shared([_errors(path) for path in bundles])
+    return {
+        "lifts": [
+            [lift.behaviour, lift.subject, lift.seed] for lift in next(filter(None, lifts), ())
+        ],
+        "policies": [
+            {
+                "p": column.standing.row.submission,
+                "name": names[column.standing.row.submission],
+                "rmse": [round(lift.rmse_mm, 3) for lift in own],
+                "curves": dict(drawn),
+            }
+            for column, own, drawn in zip(columns, lifts, curves, strict=True)
+        ],
+        "step": EVERY * FRAME,
+    }
 
 
 def _distinct_names(ranking: Sequence[RankedRow], shown: Sequence[RankedRow]) -> dict[str, str]:
@@ -227,3 +189,17 @@ def _differences(
         for other in others:
             found.append(one.against(other).tested(next(ps)) if other in same else None)
     return tuple(found)
+
+
+PAGES: Final = (
+    Page(
+        name="compare",
+        url="/seasons/{season}/compare",
+        file="compare-{season}.html",
+        view=compare_page,
+        template="compare.html",
+        meaning="Two to four policies, lift by lift: `?p=DIGEST` for each.",
+        menu="Compare",
+        place=20,
+    ),
+)

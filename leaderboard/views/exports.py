@@ -2,14 +2,13 @@
 
 import json
 import uuid
-from dataclasses import dataclass
-from datetime import datetime
-from typing import Final
+from typing import Any, Final
 
 from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import RankedRow, frame
+from colift.leaderboard.board.standings import frame
+from colift.leaderboard.client import API
 from colift.leaderboard.records.season import SeasonInfo
-from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.page import Content, Page, Visit, find_season
 
 FORMULA: Final = ("=", "+", "-", "@", "\t", "\r")
 """First characters of a text that spreadsheets take for a formula."""
@@ -30,9 +29,9 @@ def standings_csv(board: Board, season: str | None = None) -> str:
     return str(rows.map(_harmless).to_csv(index=False, lineterminator="\n"))
 
 
-def standings_json(board: Board, season: str) -> str:
+def standings_plain(board: Board, season: str) -> list[dict[str, Any]]:
     """Return all rows as JSON: with rank group, time, submitter and events."""
-    table = [
+    return [
         {
             "section": each.section,
             "group": each.group,
@@ -43,7 +42,6 @@ def standings_json(board: Board, season: str) -> str:
         }
         for each in board.tables.read(season).rows
     ]
-    return json.dumps(table, indent=1) + "\n"
 
 
 def _harmless(value: object) -> object:
@@ -54,49 +52,53 @@ MOST: Final = 100
 """Maximum number of rows in a feed."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class NewRow:
-    """A row of the board."""
-
-    id: uuid.UUID
-    """Identifier; it is the same wherever the board is shown."""
-    standing: RankedRow
-    updated: datetime
-    """Time of the last event, or of the entry."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class News:
-    """Content of a season's feed."""
-
-    id: uuid.UUID
-    season: SeasonInfo
-    updated: datetime
-    rows: tuple[NewRow, ...]
-
-
-def news_of(board: Board, season: str) -> News | None:
-    """Return the newest :data:`MOST` rows of a season; None if there is no such season."""
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
-    newest = board.tables.newest(season, MOST)
-    rows = tuple(
-        NewRow(
-            id=_identifier(info, each.row.submission),
-            standing=each,
-            updated=max([each.at, *(event.at for event in each.events)]),
-        )
-        for each in newest
-    )
-    return News(
-        id=_identifier(info, ""),
-        season=info,
-        updated=max([info.began_at, *(row.updated for row in rows)]),
-        rows=rows,
-    )
+def _news(visit: Visit, season: str) -> Content:
+    """Return the newest :data:`MOST` rows, each with its last change; identifiers never change."""
+    info = find_season(visit.board, season)
+    rows: list[dict[str, Any]] = [
+        {
+            "id": _identifier(info, each.row.submission),
+            "standing": each,
+            "updated": max([each.at, *(event.at for event in each.events)]),
+        }
+        for each in visit.board.tables.newest(season, MOST)
+    ]
+    return {
+        "id": _identifier(info, ""),
+        "season": info,
+        "updated": max([info.began_at, *(row["updated"] for row in rows)]),
+        "rows": rows,
+        "prefix": visit.origin,
+    }
 
 
 def _identifier(info: SeasonInfo, submission: str) -> uuid.UUID:
     """Return an identifier that follows from published facts of a season and a submission."""
     return uuid.uuid5(uuid.NAMESPACE_OID, f"{info.name} {info.commitment} {submission}")
+
+
+PAGES: Final = (
+    Page(
+        name="feed",
+        url="/seasons/{season}/feed.atom",
+        file="data/{season}.atom",
+        view=_news,
+        template="feed.xml",
+        media="application/atom+xml",
+        meaning="The newest rows of a season, as an Atom feed.",
+    ),
+    Page(
+        name="csv",
+        url=API + "/standings.csv?season={season}",
+        file="data/{season}.csv",
+        view=lambda visit, season: standings_csv(visit.board, season),
+    ),
+    Page(
+        name="json",
+        url=API + "/standings?season={season}",
+        file="data/{season}.json",
+        view=lambda visit, season: (
+            json.dumps(standings_plain(visit.board, season), indent=1) + "\n"
+        ),
+    ),
+)

@@ -10,10 +10,9 @@ from colift.benchmark.results.strata import human_human_mean, mean_of_strata
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RANKED, RankedRow
+from colift.leaderboard.client import API
 from colift.leaderboard.database.schema import entries
-from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
-from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
     Part,
     PublicLift,
@@ -23,6 +22,8 @@ from colift.leaderboard.views.lifts import (
     public_lifts,
     stratum_scores,
 )
+from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
+from colift.leaderboard.views.replays import watchable
 
 BLEND: Final = "blend"
 """The paper's method, with which every policy is compared."""
@@ -42,87 +43,24 @@ class PartScore:
     """The mean RMSE of ``blend`` [mm], if it is on the board."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Failure:
-    """Public lifts that failed for one reason."""
+def policy_page(visit: Visit, season: str, digest: str) -> Content:
+    """Return the row of a submission and its neighbours, or the reason for having none.
 
-    why: str
-    lifts: tuple[PublicLift, ...]
-
-
-@dataclass(frozen=True, kw_only=True)
-class PolicyView:
-    """The content of the page of a policy."""
-
-    season: SeasonInfo
-    standing: RankedRow
-    shared: int
-    """Number of policies in its rank group."""
-    ranked: int
-    """Number of policies that are ranked with it."""
-    parts: tuple[PartScore, ...]
-    axis: Axis
-    failures: tuple[Failure, ...]
-    """Reasons of failed public lifts, the most frequent first."""
-    worst: tuple[PublicLift, ...]
-    """For each behaviour, the public lift with the largest error, whose replay is shown."""
-    better: RankedRow | None
-    """The policy before it in the table."""
-    worse: RankedRow | None
-    """The policy after it."""
-    history: tuple[BoardEntry, ...]
-    """All entries of the same name, in all seasons, newest first."""
-    events: tuple[Event, ...]
-    has_bundle: bool
-    """Whether the public run can be downloaded and verified."""
-
-    @property
-    def never_lifted(self) -> bool:
-        """Whether all public lifts failed: then there is nothing to show."""
-        public = self.standing.row.public
-        return public.failed == public.episodes
-
-    @property
-    def behaviours(self) -> tuple[PartScore, ...]:
-        """All lifts, and each behaviour."""
-        return tuple(each for each in self.parts if each.part.subject is None)
-
-    @property
-    def subjects(self) -> tuple[PartScore, ...]:
-        """Each subject."""
-        return tuple(each for each in self.parts if each.part.of_subject)
-
-    def stratum(self, behaviour: str | None, subject: str | None) -> PartScore | None:
-        """Return its scores on a behaviour with a subject, if the suite has that stratum."""
-        part = Part(behaviour=behaviour, subject=subject)
-        return next((each for each in self.parts if each.part == part), None)
-
-    @property
-    def has_blend(self) -> bool:
-        """Whether it is compared with ``blend``, which is on the board and another policy."""
-        return any(each.blend_mm is not None for each in self.parts)
-
-
-@dataclass(frozen=True, kw_only=True)
-class RefusalView:
-    """The content of the page of a submission without a row."""
-
-    season: SeasonInfo
-    entry: BoardEntry
-    has_bundle: bool
-
-
-def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalView | None:
-    """Return the page of a submission; None if the board knows no such submission."""
-    info = find_season(ordered_seasons(board), season)
-    if info is None:
-        return None
-    mine = board.tables.row(season, digest)
+    ``shared`` is the number of policies in its rank group, ``ranked`` that of those it is ranked
+    with. ``parts`` are all lifts, each behaviour with its ``strata``, and each subject. The
+    ``failures`` are reasons with their public lifts, the most frequent first; ``worst`` is the lift
+    of each behaviour with the largest error, whose replay is shown; ``history`` are all entries of
+    the same name, in all seasons, newest first.
+    """
+    board = visit.board
+    info, mine = find_season(board, season), board.tables.row(season, digest)
     bundle = board.bundle(season, digest)
+    content = {"season": info, "has_bundle": is_whole(bundle)}
     if mine is None:
         entry = board.entry(season, digest)
-        whole = is_whole(bundle)
-        return None if entry is None else RefusalView(season=info, entry=entry, has_bundle=whole)
+        if entry is None:
+            raise NoPageError(f"Season {season} has no submission {digest[:16]}.")
+        return {**content, "entry": entry, "template": "refusal.html"}
     ranks = board.tables.last_ranks(season)
     others = sorted(
         (each.row.submission for each in board.tables.rows(season, entries.c.name == BLEND)),
@@ -134,22 +72,28 @@ def policy_view(board: Board, season: str, digest: str) -> PolicyView | RefusalV
     marks = [
         mark for each in parts for mark in (each.human_human_mm, each.blend_mm) if mark is not None
     ]
-    neighbours = _neighbours(board, season, fellows if mine.ranked else (), digest)
-    return PolicyView(
-        season=info,
-        standing=mine,
-        shared=ranks.shared(digest),
-        ranked=len(fellows),
-        parts=parts,
-        axis=make_axis([each.rmse_mm for each in parts], marks),
-        failures=_failures(bundle),
-        worst=_worst(bundle),
-        better=neighbours[0],
-        worse=neighbours[1],
-        history=tuple(reversed(board.entries_of(mine.row.name))),
-        events=mine.events,
-        has_bundle=is_whole(bundle),
-    )
+    better, worse = _neighbours(board, season, fellows if mine.ranked else (), digest)
+    public = mine.row.public
+    return {
+        **content,
+        "standing": mine,
+        "shared": ranks.shared(digest),
+        "ranked": len(fellows),
+        "parts": parts,
+        "behaviours": [each for each in parts if each.part.subject is None],
+        "subjects": [each for each in parts if each.part.of_subject],
+        "strata": {(each.part.behaviour, each.part.subject): each for each in parts},
+        "has_blend": any(each.blend_mm is not None for each in parts),
+        "axis": make_axis([each.rmse_mm for each in parts], marks),
+        "never_lifted": public.failed == public.episodes,
+        "failures": _failures(bundle),
+        "worst": _worst(bundle),
+        "better": better,
+        "worse": worse,
+        "history": tuple(reversed(board.entries_of(mine.row.name))),
+        "events": mine.events,
+        "has_replays": watchable(visit, season, digest),
+    }
 
 
 def _neighbours(
@@ -168,13 +112,13 @@ def _neighbours(
     return before, after
 
 
-def _failures(bundle: Path | None) -> tuple[Failure, ...]:
+def _failures(bundle: Path | None) -> list[tuple[str, list[PublicLift]]]:
+    """Return the public lifts that failed, by the reason."""
     found: dict[str, list[PublicLift]] = {}
     for lift in () if bundle is None else public_lifts(bundle):
         if lift.failure is not None:
             found.setdefault(lift.failure, []).append(lift)
-    failures = [Failure(why=why, lifts=tuple(lifts)) for why, lifts in found.items()]
-    return tuple(sorted(failures, key=lambda each: -len(each.lifts)))
+    return sorted(found.items(), key=lambda each: -len(each[1]))
 
 
 def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
@@ -205,3 +149,40 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
             )
         )
     return tuple(found)
+
+
+def _badge(visit: Visit, season: str, digest: str) -> Content:
+    found = visit.board.tables.row(season, digest)
+    if found is None:
+        raise NoPageError(f"Season {season} has no row {digest[:16]}.")
+    return {"standing": found}
+
+
+PAGES: Final = (
+    Page(
+        name="policy",
+        url="/seasons/{season}/policies/{digest}",
+        file="policy-{season}-{digest:.16}.html",
+        view=policy_page,
+        template="policy.html",
+        meaning="A submission: its scores, or why it has none.",
+    ),
+    Page(
+        name="badge",
+        url="/seasons/{season}/policies/{digest}/badge.svg",
+        file="data/{season}-{digest:.16}.svg",
+        view=_badge,
+        template="badge.svg",
+        media="image/svg+xml",
+        headers={
+            "Cross-Origin-Resource-Policy": "cross-origin",
+            "Cache-Control": "max-age=300",
+        },
+        meaning="The badge of a row, for other sites.",
+    ),
+    Page(
+        name="bundle",
+        url=API + "/entries/{season}/{digest}/bundle.zip",
+        file="data/{season}-{digest:.16}.zip",
+    ),
+)

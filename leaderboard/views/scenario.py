@@ -2,22 +2,21 @@
 
 import contextlib
 import functools
-from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.humans import Subject
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.results.scores import Stratum
 from colift.benchmark.results.strata import StratumScore
 from colift.benchmark.statistics import Estimate
+from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import RankedRow
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
-from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.board import find_season, ordered_seasons
+from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import Part, known, part_estimate, stratum_scores
+from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
 from colift.leaderboard.views.suites import season_suite
 
 CURVES: Final = 5
@@ -30,156 +29,79 @@ BEST: Final = 20
 """Number of policies, from the best, with an interval; the others have only a mean."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Curve:
-    """The heights that a person intends in one lift."""
+def scenarios(visit: Visit, season: str) -> Content:
+    """Return the scenarios of a season, behaviour by behaviour, and the policies on all of them.
 
-    seed: int
-    heights: tuple[float, ...]
-    """Intended height [mm], every 50 ms."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ScenarioRow:
-    """A policy on the lifts of a scenario."""
-
-    standing: RankedRow
-    score: StratumScore
-    rmse_mm: Estimate
-
-
-@dataclass(frozen=True, kw_only=True)
-class ScenarioView:
-    """The content of the page of a scenario."""
-
-    season: SeasonInfo
-    behaviour: str
-    description: str
-    """Description of the behaviour, in a line."""
-    subject: Subject
-    curves: tuple[Curve, ...]
-    rows: tuple[ScenarioRow, ...]
-    """Best first; at most :data:`.ROWS`."""
-    total: int
-    """Number of policies that have played it."""
-    human_human_mm: float | None
-    axis: Axis
-
-
-@dataclass(frozen=True, kw_only=True)
-class StratumLine:
-    """A scenario among the others."""
-
-    behaviour: str
-    subject: str
-    human_human_mm: float | None
-    best_mm: float | None
-    """Mean RMSE [mm] of the policy that is best on it."""
-    best: RankedRow | None
-
-
-@dataclass(frozen=True, kw_only=True)
-class HeatRow:
-    """A policy on all scenarios."""
-
-    standing: RankedRow
-    rmse_mm: dict[tuple[str, str], float]
-    """Mean RMSE [mm] by behaviour and subject."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ScenariosView:
-    """The content of the list of scenarios."""
-
-    season: SeasonInfo
-    behaviours: tuple[str, ...]
-    subjects: tuple[str, ...]
-    descriptions: dict[str, str]
-    """Description of each behaviour, in a line."""
-    strata: dict[tuple[str, str], StratumLine]
-    """The strata of the suite, by behaviour and subject."""
-    rows: tuple[HeatRow, ...]
-    """The policies of the ranking, best first."""
-
-    @property
-    def columns(self) -> tuple[StratumLine, ...]:
-        """The scenarios, behaviour by behaviour."""
-        return tuple(sorted(self.strata.values(), key=lambda c: self.behaviours.index(c.behaviour)))
-
-
-def scenarios_view(board: Board, season: str | None = None) -> ScenariosView | None:
-    """Return the list of a season's scenarios.
-
-    None if there is no such season, or this colift does not play its suite.
+    The means are in millimetres; ``rmse_mm`` of a row is by behaviour and subject.
     """
-    info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else season_suite(info)
-    if info is None or suite is None:
-        return None
-    scored = _scored(board, info)
+    info, suite = _played(visit.board, season)
+    scored = _scored(visit.board, info)
     strata = {}
     for scenario in suite.scenarios:
         key = (scenario.behaviour, scenario.subject.name)
-        there = [(scores[key], row) for row, scores in scored if key in scores]
-        best = min(there, key=lambda each: each[0].rmse_mm, default=None)
-        strata[key] = StratumLine(
-            behaviour=key[0],
-            subject=key[1],
-            human_human_mm=None if best is None else best[0].human_human_rmse_mm,
-            best_mm=None if best is None else best[0].rmse_mm,
-            best=None if best is None else best[1],
-        )
-    return ScenariosView(
-        season=info,
-        behaviours=tuple(dict.fromkeys(behaviour for behaviour, _ in strata)),
-        subjects=tuple(dict.fromkeys(subject for _, subject in strata)),
-        descriptions={each.behaviour: _described(each) for each in suite.scenarios},
-        strata=strata,
-        rows=tuple(
-            HeatRow(
-                standing=each,
-                rmse_mm={key: score.rmse_mm for key, score in scores.items()},
-            )
+        there = (scores[key] for _, scores in scored if key in scores)
+        human_human = next((score.human_human_rmse_mm for score in there), None)
+        strata[key] = {
+            "behaviour": key[0],
+            "subject": key[1],
+            "human_human_mm": human_human,
+        }
+    behaviours = list(dict.fromkeys(behaviour for behaviour, _ in strata))
+    ordered = sorted(strata, key=lambda key: behaviours.index(key[0]))
+    return {
+        "season": info,
+        "behaviours": behaviours,
+        "descriptions": {each.behaviour: _described(each) for each in suite.scenarios},
+        "columns": [strata[key] for key in ordered],
+        "rows": [
+            {
+                "standing": each,
+                "rmse_mm": {key: score.rmse_mm for key, score in scores.items()},
+            }
             for each, scores in scored[:HEAT]
-        ),
-    )
+        ],
+    }
 
 
-def scenario_view(board: Board, season: str, behaviour: str, subject: str) -> ScenarioView | None:
-    """Return the page of a scenario; None if the season has none of that name."""
-    info = find_season(ordered_seasons(board), season)
-    suite = None if info is None else season_suite(info)
-    if info is None or suite is None:
-        return None
-    scenario = next(
-        (s for s in suite.scenarios if (s.behaviour, s.subject.name) == (behaviour, subject)), None
-    )
-    if scenario is None:
-        return None
+def _played(board: Board, season: str) -> tuple[SeasonInfo, Suite]:
+    """Return a season and its suite."""
+    info = find_season(board, season)
+    suite = season_suite(info)
+    if suite is None:
+        raise NoPageError(f"This colift does not play the suite of season {info.name}.")
+    return info, suite
+
+
+def _scenario(visit: Visit, season: str, behaviour: str, subject: str) -> Content:
+    """Return a scenario, the first curves of its lifts, and the policies that have played it."""
+    board = visit.board
+    info, suite = _played(board, season)
     key = (behaviour, subject)
+    scenario = next((s for s in suite.scenarios if (s.behaviour, s.subject.name) == key), None)
+    if scenario is None:
+        raise NoPageError(f"Season {season} has no such scenario.")
     scored = [(each, strata[key]) for each, strata in _scored(board, info) if key in strata]
     scored.sort(key=lambda each: each[1].rmse_mm)
     part = Part(behaviour=behaviour, subject=subject)
-    rows = tuple(
-        ScenarioRow(
-            standing=each, score=score, rmse_mm=_estimate(board, each, score, part, i < BEST)
-        )
+    estimates = [
+        _estimate(board, each, score, part, i < BEST)
         for i, (each, score) in enumerate(scored[:ROWS])
-    )
-    human_human = rows[0].score.human_human_rmse_mm if rows else None
-    return ScenarioView(
-        season=info,
-        behaviour=behaviour,
-        description=_described(scenario),
-        subject=scenario.subject,
-        curves=_curves(scenario, suite.seeds[:CURVES]),
-        rows=rows,
-        total=len(scored),
-        human_human_mm=human_human,
-        axis=make_axis(
-            [row.rmse_mm for row in rows], () if human_human is None else (human_human,)
-        ),
-    )
+    ]
+    human_human = scored[0][1].human_human_rmse_mm if scored else None
+    return {
+        "season": info,
+        "behaviour": behaviour,
+        "description": _described(scenario),
+        "subject": scenario.subject,
+        "curves": _curves(scenario, suite.seeds[:CURVES]),
+        "rows": [
+            {"standing": each, "score": score, "rmse_mm": estimate}
+            for (each, score), estimate in zip(scored, estimates, strict=False)
+        ],
+        "total": len(scored),
+        "human_human_mm": human_human,
+        "axis": make_axis(estimates, () if human_human is None else (human_human,)),
+    }
 
 
 def _scored(board: Board, info: SeasonInfo) -> list[tuple[RankedRow, dict[Stratum, StratumScore]]]:
@@ -205,11 +127,33 @@ def _described(scenario: Scenario) -> str:
 
 
 @functools.lru_cache(maxsize=256)
-def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[Curve, ...]:
-    curves = []
+def _curves(scenario: Scenario, seeds: tuple[int, ...]) -> tuple[tuple[float, ...], ...]:
+    """Return the heights [mm] that a person intends in some lifts, every 50 ms."""
     with contextlib.closing(Lift(scenario)) as lift:
+        curves = []
         for seed in seeds:
             lift.reset(seed)
-            heights = tuple(round(1000 * float(height), 1) for height in lift.target[::5])
-            curves.append(Curve(seed=seed, heights=heights))
+            curves.append(tuple(round(1000 * float(height), 1) for height in lift.target[::5]))
     return tuple(curves)
+
+
+PAGES: Final = (
+    Page(
+        name="scenarios",
+        url="/seasons/{season}/scenarios",
+        file="scenarios-{season}.html",
+        view=scenarios,
+        template="scenarios.html",
+        meaning="The scenarios of a season, with every policy on each.",
+        menu="Scenarios",
+        place=30,
+    ),
+    Page(
+        name="scenario",
+        url="/seasons/{season}/scenarios/{behaviour}/{subject}",
+        file="scenario-{season}-{behaviour}-{subject}.html",
+        view=_scenario,
+        template="scenario.html",
+        meaning="A behaviour with a person.",
+    ),
+)

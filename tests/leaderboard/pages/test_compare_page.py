@@ -8,8 +8,9 @@ from colift.benchmark.statistics import paired_difference
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.replays.chosen import replays_of
 from colift.leaderboard.storage.store import Store
-from colift.leaderboard.views.compare import compare_view
+from colift.leaderboard.views.compare import compare_page
 from colift.leaderboard.views.lifts import public_lifts
+from colift.leaderboard.views.page import Visit
 from playwright.sync_api import expect
 
 from .. import rows
@@ -103,13 +104,14 @@ def test_the_same_lift_is_drawn_with_both_where_there_are_replays(page, url, fol
         for name in ("copy", "blend")
     }
     names = replays[digest("copy")].keys() & replays[digest("blend")].keys()
-    view = compare_view(board, "2026", [digest("copy"), digest("blend")])
+    chosen = [digest("copy"), digest("blend")]
+    drawn = compare_page(Visit(board=board, chosen=chosen), "2026")["data"]["policies"]
     board.close()
     assert names
-    for column, curves in zip(view.columns, view.curves, strict=True):
-        assert curves.keys() == names
-        for name, curve in curves.items():
-            replay = replays[column.standing.row.submission][name]
+    for policy in drawn:
+        assert policy["curves"].keys() == names
+        for name, curve in policy["curves"].items():
+            replay = replays[policy["p"]][name]
             last = sum(replay["robot"][: 5 * len(curve) - 4]) - sum(
                 replay["human"][: 5 * len(curve) - 4]
             )

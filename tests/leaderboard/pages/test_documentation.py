@@ -3,7 +3,7 @@
 import httpx
 import pytest
 from colift.agents.errors import InputError
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Page, expect
 
@@ -75,7 +75,7 @@ def test_without_documentation_the_table_names_the_command(url):
 
 @pytest.mark.parametrize("place", ["https://host/docs", "https://host/docs/index.html"])
 def test_a_page_of_the_documentation_has_an_address(place):
-    links = ServiceLinks("", Documentation.at(place).link(""))
+    links = Links("", Documentation.at(place).link(""))
     assert links.docs("background/validity") == "https://host/docs/background/validity.html"
 
 

@@ -12,14 +12,15 @@ import sqlalchemy as sa
 from colift.benchmark.bundle.files import RESULTS
 from colift.leaderboard.board.board import Board
 from colift.leaderboard.database.queries import record_entry
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.views.asked import ROWS, Asked
-from colift.leaderboard.views.board import board_view
-from colift.leaderboard.views.policy import policy_view
+from colift.leaderboard.views.board import board_page
+from colift.leaderboard.views.page import Visit
+from colift.leaderboard.views.policy import policy_page
 from playwright.sync_api import expect
 
 from ..rows import digest, make_entry, make_errors
@@ -78,9 +79,7 @@ def fill(board, first, last, results):
 
 
 def page_of(board, **asked):
-    return render_page(
-        "board.html", ServiceLinks(), view=board_view(board, None, Asked.read(**asked))
-    )
+    return render_page("board.html", Links(), **board_page(board, None, Asked.read(**asked)))
 
 
 def test_a_thousand_entries_take_no_more_queries_and_no_more_bytes_than_some_hundred(board, few):
@@ -90,7 +89,7 @@ def test_a_thousand_entries_take_no_more_queries_and_no_more_bytes_than_some_hun
         each.standings()
         with statements(each) as told:
             text = page_of(each)
-            policy_view(each, "1", digest("policy-0003"))
+            policy_page(Visit(board=each), "1", digest("policy-0003"))
         assert text.count("data-row=") == ROWS
         assert f"{rows} policies" in text
         counts.append(len(told))
@@ -105,18 +104,18 @@ def test_each_row_is_on_one_page_of_the_table_in_every_order(board):
         shown = []
         for first in range(0, MANY, ROWS):
             asked = Asked.read(sort="-" * down + sort, first=str(first))
-            shown += [each.standing.row.name for each in board_view(board, None, asked).rows]
+            shown += [each.standing.row.name for each in board_page(board, None, asked)["rows"]]
         assert sorted(shown) == [name(number) for number in range(MANY)]
         if sort in ("rank", "name"):
             assert shown == sorted(shown, reverse=down)
 
 
 def test_a_search_is_over_all_rows(board):
-    view = board_view(board, None, Asked.read(q=" Policy-09 lovelace "))
-    assert view.lines.count == 100
-    assert view.rows[0].standing.row.name == "policy-0900"
-    assert view.rows[0].standing.group == 901
-    assert board_view(board, None, Asked.read(q="nobody")).rows == ()
+    view = board_page(board, None, Asked.read(q=" Policy-09 lovelace "))
+    assert view["lines"].count == 100
+    assert view["rows"][0].standing.row.name == "policy-0900"
+    assert view["rows"][0].standing.group == 901
+    assert board_page(board, None, Asked.read(q="nobody"))["rows"] == ()
 
 
 @pytest.mark.parametrize(
@@ -140,17 +139,17 @@ def test_nonsense_in_the_address_is_a_page(board, nonsense):
 def test_a_part_of_the_lifts_is_shown_and_sorted_by_without_a_script(folder, played):
     """As the page's script does it: see test_board_page."""
     shown = Board.open(folder)
-    view = board_view(shown, "2026", Asked.read(behaviour="jerky", sort="rmse"))
+    view = board_page(shown, "2026", Asked.read(behaviour="jerky", sort="rmse"))
     shown.close()
-    found = [each.scores.rmse_mm.mean for each in view.rows]
+    found = [each.scores.rmse_mm.mean for each in view["rows"]]
     assert len(found) == len(played.entries)
     assert found == sorted(found)
-    for each in view.rows:
+    for each in view["rows"]:
         (stratum,) = (s for s in each.strata if s.behaviour == "jerky")
         assert each.scores.rmse_mm.mean == pytest.approx(stratum.rmse_mm)
         assert each.scores.ratio == pytest.approx(stratum.rmse_mm / stratum.human_human_rmse_mm)
         assert each.scores.metrics["human_force_n"] == stratum.metrics["human_force_n"]
-    assert not view.complete
+    assert not view["complete"]
 
 
 def test_a_table_is_read_once_for_each_change(board, played, rows_read):
@@ -166,10 +165,10 @@ def test_a_table_is_read_once_for_each_change(board, played, rows_read):
     assert len(rows_read) == first
     fill(board, 2 * MANY, 2 * MANY + 1, played.entries[0].files[RESULTS])
     for _ in range(5):
-        assert board_view(board).total == MANY + 1
+        assert board_page(board)["total"] == MANY + 1
     assert len(rows_read) == first + 1
     board.withdraw("1", digest(name(2 * MANY)), "Ada", "a copy")
-    assert board_view(board).total == MANY
+    assert board_page(board)["total"] == MANY
     board.close()
 
 

@@ -11,12 +11,12 @@ from colift.leaderboard.board.board import Board
 from colift.leaderboard.board.standings import HumanHumanScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
-from colift.leaderboard.pages.links import ServiceLinks
+from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
-from colift.leaderboard.views.board import board_view
-from colift.leaderboard.views.compare import compare_view
+from colift.leaderboard.views.board import board_page
+from colift.leaderboard.views.compare import compare_page
 from colift.leaderboard.views.exports import standings_csv
 from colift.leaderboard.views.lifts import (
     Part,
@@ -24,9 +24,10 @@ from colift.leaderboard.views.lifts import (
     public_lifts,
     stratum_scores,
 )
+from colift.leaderboard.views.page import Visit
 from colift.leaderboard.views.picture import make_picture
-from colift.leaderboard.views.policy import RefusalView, policy_view
-from colift.leaderboard.views.scenario import scenarios_view
+from colift.leaderboard.views.policy import policy_page
+from colift.leaderboard.views.scenario import scenarios
 
 from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
@@ -80,23 +81,26 @@ def test_numbers_are_written_as_people_write_them(told, text):
 
 
 def test_a_policy_is_shown_part_by_part_beside_two_people_and_blend(shown):
-    view = policy_view(shown, "2026", digest("copy"))
-    blend = policy_view(shown, "2026", digest("blend"))
-    assert view.parts[0].part == Part(behaviour=None, subject=None)
-    assert view.parts[0].rmse_mm.mean == pytest.approx(view.standing.row.public.rmse_mm.mean)
-    assert view.parts[0].rmse_mm.ci95 == pytest.approx(view.standing.row.public.rmse_mm.ci95)
-    for mine, theirs in zip(view.parts, blend.parts, strict=True):
+    visit = Visit(board=shown)
+    view = policy_page(visit, "2026", digest("copy"))
+    blend = policy_page(visit, "2026", digest("blend"))
+    parts, public = view["parts"], view["standing"].row.public
+    assert parts[0].part == Part(behaviour=None, subject=None)
+    assert parts[0].rmse_mm.mean == pytest.approx(public.rmse_mm.mean)
+    assert parts[0].rmse_mm.ci95 == pytest.approx(public.rmse_mm.ci95)
+    for mine, theirs in zip(parts, blend["parts"], strict=True):
         assert mine.blend_mm == pytest.approx(theirs.rmse_mm.mean)
-    ratio = view.parts[0].rmse_mm.mean / view.parts[0].human_human_mm
-    assert ratio == pytest.approx(view.standing.row.public.vs_human.mean)
-    assert [entry.season for entry in view.history] == ["2026", "2025"]
+    ratio = parts[0].rmse_mm.mean / parts[0].human_human_mm
+    assert ratio == pytest.approx(public.vs_human.mean)
+    assert [entry.season for entry in view["history"]] == ["2026", "2025"]
 
 
 def test_only_so_many_are_compared_and_no_one_with_itself(shown):
     copy = digest("copy")
-    assert compare_view(shown, "2026", [copy, copy]).pairs == ()
+    assert compare_page(Visit(board=shown, chosen=[copy, copy]), "2026")["pairs"] == ()
     everyone = [each.row.submission for each in shown.standings("2026")]
-    assert len(compare_view(shown, "2026", [*everyone, "nonsense"]).columns) == CHOSEN
+    many = compare_page(Visit(board=shown, chosen=[*everyone, "nonsense"]), "2026")
+    assert len(many["columns"]) == CHOSEN
 
 
 def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path):
@@ -108,17 +112,6 @@ def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path)
     assert bare.mean == pytest.approx(whole.mean)
     assert whole.ci95[0] < whole.mean < whole.ci95[1]
     assert bare.ci95 == (bare.mean, bare.mean)
-
-
-def test_the_best_of_each_scenario_is_named(shown):
-    view = scenarios_view(shown, "2026")
-    assert set(view.strata) == {
-        ("smooth", "S1"),
-        ("pause", "S2"),
-        ("jerky", "S3"),
-        ("changing_goal", "S5"),
-    }
-    assert all(stratum.best.row.name != "hold" for stratum in view.strata.values())
 
 
 def test_the_picture_has_hidden_errors_and_public_smoothness():
@@ -156,10 +149,10 @@ def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):
     lines.append("jerky,S3,0,250.0,start: OSError")
     (bundle / EPISODES).write_text("\n".join(["behaviour,subject,seed,rmse_mm,failure", *lines]))
     (bundle / RESULTS).write_text('{"groups": []}')
-    view = policy_view(board, "1", row.submission)
-    page = render_page("policy.html", ServiceLinks(), view=view, has_replays=True)
+    view = policy_page(Visit(board=board), "1", row.submission)
+    page = render_page("policy.html", Links(), **view | {"has_replays": True})
     board.close()
-    assert [(each.why, len(each.lifts)) for each in view.failures] == [
+    assert [(why, len(lifts)) for why, lifts in view["failures"]] == [
         ("step 0: TypeError", 11),
         ("start: OSError", 1),
     ]
@@ -172,12 +165,14 @@ def test_what_tex_would_take_for_a_command_is_escaped():
 
 
 def test_the_map_of_scenarios_has_every_policy_of_the_ranking(shown):
-    view = scenarios_view(shown, "2026")
+    content = scenarios(Visit(board=shown), "2026")
     ranked = [each.row.name for each in shown.standings("2026") if each.ranked]
-    assert [row.standing.row.name for row in view.rows] == ranked
-    for row in view.rows:
-        assert set(row.rmse_mm) == set(view.strata)
-    assert [stratum.behaviour for stratum in view.columns] == list(view.behaviours)
+    assert [row["standing"].row.name for row in content["rows"]] == ranked
+    strata = {(each["behaviour"], each["subject"]) for each in content["columns"]}
+    assert strata == {("smooth", "S1"), ("pause", "S2"), ("jerky", "S3"), ("changing_goal", "S5")}
+    for row in content["rows"]:
+        assert set(row["rmse_mm"]) == strata
+    assert [stratum["behaviour"] for stratum in content["columns"]] == content["behaviours"]
 
 
 def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
@@ -192,10 +187,10 @@ def test_a_refused_submission_has_a_page_with_the_reason(tmp_path):
     entry = make_entry(board, "mine", refusal="lift 3 differs when it is played again")
     with board.database.writing() as connection:
         record_entry(connection, entry, ())
-    view = policy_view(board, "1", entry.submission)
+    view = policy_page(Visit(board=board), "1", entry.submission)
     board.close()
-    assert isinstance(view, RefusalView)
-    assert view.entry.refusal == entry.refusal
+    assert view["template"] == "refusal.html"
+    assert view["entry"].refusal == entry.refusal
 
 
 def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_path):
@@ -210,9 +205,9 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     add(board, "snail", 5.0, change=slow)
     add(board, "free", 1.0, change=unverified)
     board.standings()  # Computes the ranks.
-    view = board_view(board)
-    names = [[each.row.name for each in some] for some in (view.slow, view.out)]
-    assert ([each.standing.row.name for each in view.rows], *names) == (
+    view = board_page(board)
+    names = [[each.row.name for each in some] for some in (view["slow"], view["out"])]
+    assert ([each.standing.row.name for each in view["rows"]], *names) == (
         ["good"],
         ["snail"],
         ["free"],
