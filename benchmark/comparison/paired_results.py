@@ -3,12 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-import numpy as np
 from colift.benchmark.channels import Channel
 from colift.benchmark.episode.metric import LEADING, Metric, Scores, on_boards, second_axis
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, Baseline
-from colift.benchmark.results.summary import Stratum, stratum
+from colift.benchmark.results.summary import StepTimes, Stratum, stratum
 from colift.benchmark.suites.suite import Suite
 
 
@@ -30,15 +29,14 @@ class PolicyResults:
     @classmethod
     def of(cls, name: str, run: Run) -> "PolicyResults":
         """Return the results of a run, under the name that tables use."""
-        times = [1000 * time for episode in run.episodes for time in episode.step_times]
-        p50, p99 = np.percentile(times, [50, 99]) if times else (0.0, 0.0)
+        times = StepTimes.of(run.episodes)
         return cls(
             name=name,
             digest=run.policy_digest,
             strata=tuple(stratum(episode) for episode in run.episodes),
             scores=tuple(episode.scores for episode in run.episodes),
             failures=tuple(episode.failure for episode in run.episodes),
-            step_ms=(float(p50), float(p99)) if times else None,
+            step_ms=None if times.p50 is None or times.p99 is None else (times.p50, times.p99),
         )
 
 

@@ -1,16 +1,21 @@
 """The episodes of a run: all scores in memory, the traces of a long run in a file."""
 
 import contextlib
+import functools
 import os
+import sys
 import tempfile
 import threading
 import weakref
+from array import array
+from collections.abc import Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final, Protocol
 
 from colift.agents.errors import InputError
 from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.metric import Scores
 from colift.benchmark.execution.records import append_record, episode_of, record_of, records
 
 IN_MEMORY: Final = 300
@@ -28,6 +33,33 @@ class Shelf(Protocol):
         ...
 
 
+class PackedScores(Mapping[str, float]):
+    """Scores in a fifth of the memory of a dictionary: their names are those of other lifts."""
+
+    __slots__ = ("_places", "_values")
+
+    def __init__(self, scores: Scores) -> None:
+        self._places = _places(tuple(scores))
+        self._values = array("d", scores.values()).tobytes()
+
+    def __getitem__(self, name: str) -> float:
+        return float(memoryview(self._values).cast("d")[self._places[name]])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+    def __repr__(self) -> str:
+        return repr(dict(self))
+
+
+@functools.lru_cache
+def _places(names: tuple[str, ...]) -> dict[str, int]:
+    return {name: place for place, name in enumerate(names)}
+
+
 class Shelved(Episode):
     """An episode whose :data:`IN_FILE` are not in memory; a copy or a pickle of it is whole."""
 
@@ -40,7 +72,8 @@ class Shelved(Episode):
         return getattr(self._file.read(self._offset), name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _whole, ({each.name: getattr(self, each.name) for each in fields(Episode)},)
+        values = {each.name: getattr(self, each.name) for each in fields(Episode)}
+        return _whole, ({**values, "scores": dict(self.scores)},)
 
 
 def _whole(values: dict[str, Any]) -> Episode:
@@ -90,12 +123,17 @@ class EpisodeFile:
 
     def shelved(self, episode: Episode, offset: int) -> Episode:
         """Return the episode of the record at an offset as memory holds it."""
+        kept = {
+            each.name: getattr(episode, each.name)
+            for each in fields(Episode)
+            if each.name not in IN_FILE
+        }
+        # Each worker's answer brings texts of its own.
+        kept |= {name: sys.intern(kept[name]) for name in ("behaviour", "subject", "trial")}
         light = object.__new__(Shelved)
-        for each in fields(Episode):
-            if each.name not in IN_FILE:
-                object.__setattr__(light, each.name, getattr(episode, each.name))
-        object.__setattr__(light, "_file", self)
-        object.__setattr__(light, "_offset", offset)
+        values = {**kept, "scores": PackedScores(episode.scores), "_file": self, "_offset": offset}
+        for name, value in values.items():
+            object.__setattr__(light, name, value)
         return light
 
     def read(self, offset: int) -> Episode:

@@ -1,10 +1,11 @@
 """The summary of a run: from episodes to the numbers of a results table."""
 
 import dataclasses
-import math
-from collections.abc import Mapping, Sequence
+import functools
+from array import array
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from colift.benchmark.episode.episode import Episode
@@ -28,6 +29,21 @@ class StepTimes:
 
     p50: float | None
     p99: float | None
+
+    @classmethod
+    def of(cls, episodes: Iterable[Episode]) -> Self:
+        """Return the percentiles over all steps of the episodes.
+
+        A long run has millions of steps: they are in single precision, and sorted in place.
+        """
+        times = array("f")
+        for episode in episodes:
+            times.extend(episode.step_times)
+        if not times:
+            return cls(p50=None, p99=None)
+        found = np.percentile(np.frombuffer(times, np.float32), [50, 99], overwrite_input=True)
+        p50, p99 = (1000 * float(each) for each in found)
+        return cls(p50=p50, p99=p99)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,7 +119,13 @@ def _plain_means(metrics: Mapping[str, MeanWithMissing]) -> dict[str, Any]:
 
 def stratum(episode: Episode) -> Stratum:
     """Return the behaviour and the subject of an episode: its stratum."""
-    return episode.behaviour, episode.subject
+    return _pair(episode.behaviour, episode.subject)
+
+
+@functools.lru_cache
+def _pair(behaviour: str, subject: str) -> Stratum:
+    # The same object for all lifts of a stratum, of which there may be thousands.
+    return behaviour, subject
 
 
 def summarise(
@@ -128,8 +150,6 @@ def summarise(
     """
     rmse = [episode.scores["rmse_mm"] for episode in episodes]
     strata = [stratum(episode) for episode in episodes]
-    times = np.array([t for episode in episodes for t in episode.step_times] or [math.nan])
-    p50, p99 = 1000 * np.percentile(times, [50, 99])
     return Summary(
         episodes=len(episodes),
         failed=sum(episode.failure is not None for episode in episodes),
@@ -140,7 +160,7 @@ def summarise(
         if human_human is None or len(human_human) != len(rmse)
         else ratio_of_means(rmse, human_human, strata),
         metrics={name: mean_score(episodes, name) for name in metrics if name != LEADING},
-        step_ms=StepTimes(p50=_number(p50), p99=_number(p99)),
+        step_ms=StepTimes.of(episodes),
     )
 
 
@@ -172,8 +192,3 @@ def by_stratum(
 def mean_score(episodes: Sequence[Episode], name: str) -> MeanWithMissing:
     """Return the mean of a metric over the episodes that have it."""
     return mean_with_missing([episode.scores[name] for episode in episodes])
-
-
-def _number(value: float) -> float | None:
-    """Return a number that JSON knows: None for NaN."""
-    return None if math.isnan(value) else float(value)
