@@ -1,4 +1,4 @@
-"""What a real robot, which does not wait, asks of a policy and of the motion capture."""
+"""Limits of a real robot, which does not wait, for a policy and for the motion capture."""
 
 from typing import Final
 

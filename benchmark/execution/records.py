@@ -58,7 +58,7 @@ def _packed(values: NDArray[Any]) -> list[Any]:
 
 def _unpacked(content: list[Any]) -> NDArray[Any]:
     kind, shape, data = content
-    return np.frombuffer(data, np.dtype(kind)).reshape(shape)
+    return np.frombuffer(data, np.dtype(kind)).reshape(shape).copy()
 
 
 HEAD: Final = struct.Struct("<II")
