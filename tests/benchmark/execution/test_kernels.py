@@ -19,6 +19,8 @@ KERNELS = {
     "four threads": {f"{name}_NUM_THREADS": "4" for name in ("OMP", "OPENBLAS", "MKL")},
 }
 
+FIRST, *OTHERS = KERNELS
+
 LIBM = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F"}
 """Makes the C library take other functions, which the engine uses, too."""
 
@@ -106,7 +108,9 @@ def plain():
     return said(OURS)
 
 
-@pytest.mark.parametrize("kernel", KERNELS)
+@pytest.mark.parametrize(
+    "kernel", [FIRST, *(pytest.param(name, marks=pytest.mark.slow) for name in OTHERS)]
+)
 def test_humans_world_and_scores_have_the_same_bits(plain, kernel):
     name, found = said(OURS, **KERNELS[kernel])
     assert found == plain[1]
