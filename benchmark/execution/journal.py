@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.errors import InputError, Remedy
+from colift.agents.submissions.folder import unwritable
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.execution.records import append_record, episode_of, records
-from colift.benchmark.execution.shelf import EpisodeFile, unwritable
+from colift.benchmark.execution.shelf import EpisodeFile
 
 if sys.platform != "win32":
     import fcntl

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, Final, Protocol
 
 from colift.agents.errors import InputError
+from colift.agents.submissions.folder import unwritable
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.execution.records import append_record, episode_of, record_of, records
@@ -187,8 +188,3 @@ def _unnamed_file() -> EpisodeFile:
     Path(name).unlink()
     weakref.finalize(made, os.close, handle)
     return made
-
-
-def unwritable(path: Path, error: OSError) -> InputError:
-    """Return the error of a file that cannot be written."""
-    return InputError(f"cannot write to {path}: {error.strerror}")
