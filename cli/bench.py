@@ -1,6 +1,7 @@
 """``colift bench``: speed of the benchmark and the policies, and convergence of the physics."""
 
 import dataclasses
+import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Annotated, Any, Final
@@ -11,7 +12,8 @@ from colift.agents.loading.loading import PolicySpec
 from colift.agents.registry import playing
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.execution.pool import process_pool
-from colift.benchmark.execution.progress import progress_bar
+from colift.benchmark.execution.progress import job_bar, progress_bar
+from colift.benchmark.profiling.bars import FIGURES, missed
 from colift.benchmark.profiling.cluster import scale as measure_scale
 from colift.benchmark.profiling.convergence import USUAL, solver_error, study
 from colift.benchmark.profiling.engine import endurance, single_process, two_workers_ratio
@@ -34,28 +36,12 @@ from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive
 from rich.table import Table
 
-MEANING: Final = {
-    "sim_speed": "simulated seconds per wall second, one process",
-    "solver_error": "worst RMSE error of a lift, relative, to a converged solver (at most 0.003)",
-    "naive_nao_ratio": "speed over the whole NAO as loaded, stepped at 240 Hz (at least 24)",
-    "reset_share": "share of an episode's wall time spent on its reset (at most 0.02)",
-    "two_workers_ratio": "throughput of two workers over one (at least 1.7)",
-    "memory_growth_mb": "growth of the process after the first hundred episodes",
-    "late_over_early": "time of the last episodes over that of the first (1 = linear cost)",
-    "dask_ratio": "throughput of Dask on this machine over the local pool's (at least 0.9)",
-    "twin_mean_error": "largest error of a policy's mean RMSE in the twin (at most 0.003)",
-    "twin_worst_error": "largest error of a lift's RMSE in the twin (at most 0.015)",
-    "twin_speed_ratio": "control steps/s of the twin over the engine's (at least 500)",
-    "twin_gradient_ratio": "the same of lifts with their gradient (at least 50)",
-    "verify_ratio": "throughput of verification over that of the run (at least 1)",
-}
-
 SCALE_POLICY: Final = "blend"
 SCALE_SUITE: Final = "standard-v1"
 SCALE_ROUNDS: Final = 5
 
-Report = tuple[Any, Table]
-"""Figures as JSON, and as a table."""
+Report = tuple[Any, Table, list[str]]
+"""Figures as JSON and as a table, and the bars that are missed."""
 
 
 def bench(
@@ -83,7 +69,10 @@ def bench(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Measure the benchmark itself: speed (as ratios within this run), memory, convergence."""
+    """Measure the benchmark itself: speed (as ratios within this run), memory, convergence.
+
+    Exit code 1 if a figure misses its bar, or a policy or the twin its limit.
+    """
     check_exclusive(
         convergence=convergence, policies=policies, isolation=isolation, scale=scale, twin=twin
     )
@@ -99,23 +88,44 @@ def bench(
         _twin: twin,
         partial(_engine, episodes): True,
     }
-    content, shown = next(study for study, wanted in studies.items() if wanted)()
+    content, shown, off = next(study for study, wanted in studies.items() if wanted)()
     if as_json:
         print_json(content)
     else:
         show(shown)
+    for each in off:
+        print(f"missed: {each}", file=sys.stderr)
+    if off:
+        raise typer.Exit(1)
 
 
 def _engine(episodes: int) -> Report:
     """Return the speed, the accuracy and the memory of the benchmark itself."""
-    figures = single_process() | {"solver_error": solver_error()}
-    figures |= two_workers_ratio(process_pool) | _endurance(episodes)
-    return figures, _figures_table("colift bench", figures)
+    figures: dict[str, float] = {}
+    parts: dict[str, Callable[[], dict[str, float]]] = {
+        "one process": single_process,
+        "solver": lambda: {"solver_error": solver_error()},
+        "two workers": lambda: two_workers_ratio(process_pool),
+    }
+    hundreds = episodes // 100
+    with job_bar("bench", len(parts) + hundreds, words=True) as bar:
+        for name, part in parts.items():
+            bar.stage(name)
+            figures |= part()
+            bar.advance(1)
+        bar.stage(f"{episodes} episodes")
+        figures |= _endurance(episodes, bar.advance)
+    return figures, _figures_table("colift bench", figures), missed(figures)
 
 
 def _figures_table(title: str, figures: dict[str, float], caption: str = "") -> Table:
-    rows = ((name, f"{value:.3g}", MEANING[name]) for name, value in figures.items())
-    return table(title, ("figure", "value", left("meaning")), rows, caption=caption)
+    rows = []
+    for name, value in figures.items():
+        figure = FIGURES[name]
+        verdict = ("kept" if figure.kept(value) else "MISSED") if figure.bar else ""
+        rows.append((name, f"{value:.3g}", figure.bar, verdict, figure.meaning))
+    titles = ("figure", "value", left("bar"), "", left("meaning"))
+    return table(title, titles, rows, caption=caption)
 
 
 def _scale() -> Report:
@@ -124,7 +134,7 @@ def _scale() -> Report:
     with progress_bar("bench", lifts) as progress:
         figures = measure_scale(SCALE_POLICY, SCALE_SUITE, SCALE_ROUNDS, progress)
     caption = f"{SCALE_POLICY} on {SCALE_SUITE}, two worker processes; median of {SCALE_ROUNDS}"
-    return figures, _figures_table("scale", figures, caption)
+    return figures, _figures_table("scale", figures, caption), missed(figures)
 
 
 def _twin() -> Report:
@@ -169,9 +179,13 @@ def _twin() -> Report:
         for each in found
     ]
     titles = ("policy", "engine mm", "twin mm", "mean error", "worst lift", "limits")
-    speed = ", ".join(f"{name} {figures[name]:.0f}" for name in list(figures)[2:])
+    speed = ", ".join(
+        f"{name} {figures[name]:.0f} ({FIGURES[name].bar})" for name in list(figures)[2:]
+    )
     caption = f"40 lifts with 10 people outside all suites; {speed}"
-    return content, table("The twin and the engine", titles, rows, caption=caption)
+    off = [f"{each.policy} is too far from the engine" for each in found if not each.within_limits]
+    shown = table("The twin and the engine", titles, rows, caption=caption)
+    return content, shown, [*missed(figures), *off]
 
 
 def _isolation() -> Report:
@@ -208,11 +222,14 @@ def _isolation() -> Report:
         f"over in-process; aim: {STEP_US:g} us per step, {EPISODE_MS:g} ms per episode; "
         "bits that a lift can pass on by the time it takes"
     )
-    return content, table("cost of isolation", titles, rows, caption=caption)
+    return content, table("cost of isolation", titles, rows, caption=caption), []
 
 
-def _endurance(episodes: int) -> dict[str, float]:
-    rows = list(endurance(episodes))
+def _endurance(episodes: int, progress: Callable[[int], None]) -> dict[str, float]:
+    rows = []
+    for row in endurance(episodes):
+        rows.append(row)
+        progress(1)
     third = max(1, len(rows) // 3)
     early = sum(row["ms_per_episode"] for row in rows[:third])
     late = sum(row["ms_per_episode"] for row in rows[-third:])
@@ -254,12 +271,21 @@ def _policies() -> Report:
             rows.append((name, *times, str(taken.steps), kept))
     titles = ("policy", "median ms", "p99 ms", "steps", "limit")
     caption = f"limit: 99th percentile at most {LIMIT_MS:g} ms"
-    return content, table("time of a step", titles, rows, caption=caption)
+    slow = [
+        f"{name}: a step takes {taken.p99_ms:.3g} ms, must take at most {LIMIT_MS:g}"
+        for name, taken in found.items()
+        if taken is not None and not taken.within_limit
+    ]
+    return content, table("time of a step", titles, rows, caption=caption), slow
 
 
 def _convergence(suite: str) -> Report:
     """Return the errors that coarser physics cause."""
-    errors = list(study(suite))
+    errors = []
+    with progress_bar("bench", None) as progress:
+        for error in study(suite):
+            errors.append(error)
+            progress(1)
     content = [
         {
             "policy": row.policy,
@@ -291,7 +317,7 @@ def _convergence(suite: str) -> Report:
         "RMSE error against steps of 0.5 ms, ± standard error over the same lifts; of the solvers\n"
         "(direct, sequential impulses) against 3000 iterations, on the lifts of one seed"
     )
-    return content, table(f"convergence on {suite}", titles, rows, caption=caption)
+    return content, table(f"convergence on {suite}", titles, rows, caption=caption), []
 
 
 def _setting(physics: Physics, other: Physics) -> str:

@@ -182,12 +182,11 @@ def _evaluate(
     done: Run | None = None
     ready = shipped_baselines(suite)
     total = suite.size * (1 if ready else 1 + len(BASELINES))
-    watch = LifeWatch(journal.keep if journal is not None else lambda place, episode: None)
     before = journal.done if journal is not None else {}
     with progress_bar(spec.name, total) as progress:
         play = partial(run_suite, spec, suite, executor=workers, progress=progress, channel=channel)
         try:
-            done = play(done=before, keep=watch)
+            done = play(done=before, keep=LifeWatch(), shelf=journal)
             if ready is None:
                 ready = play_baselines(suite, executor=workers, progress=progress)
         except KeyboardInterrupt as interrupted:

@@ -135,7 +135,6 @@ def chosen_suite(
     InputError
         If there is no such suite or behaviour, or the file or the seeds cannot be used.
     """
-    from colift.benchmark.live.scenarios import real_lifts
     from colift.benchmark.suites.suite import make_suite
 
     if recordings is None:
@@ -149,6 +148,8 @@ def chosen_suite(
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
     if name is not None:
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
+    from colift.benchmark.live.scenarios import real_lifts
+
     lifts = real_lifts(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite

@@ -132,9 +132,11 @@ def _no_jax(request):
         pytest.fail(f"{request.path.name} imports JAX: its tests belong into jax_*.py, run apart")
 
 
-@pytest.fixture
-def in_own_process(once):
+@pytest.fixture(params=["not slow", pytest.param("slow", marks=pytest.mark.slow)])
+def in_own_process(once, request):
     """Run the tests of modules ``jax_*.py`` in a process of their own; skip if JAX is missing.
+
+    The slow ones of them are a test of their own.
 
     It computes on one thread, as the commands do. Compiling takes longer than computing there: it
     is quick rather than good, and is done once.
@@ -158,10 +160,12 @@ def in_own_process(once):
             name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")
         } | compiling
         command = [sys.executable, "-m", "pytest", "-n", "0", "-q", "-p", "no:cacheprovider"]
+        command += ["-m", request.param]
         done = subprocess.run(
             [*command, *map(str, modules)], env=environment, capture_output=True, text=True
         )
-        assert done.returncode == 0, done.stdout[-10_000:] + done.stderr[-2000:]
+        none = request.param == "slow" and done.returncode == pytest.ExitCode.NO_TESTS_COLLECTED
+        assert none or done.returncode == 0, done.stdout[-10_000:] + done.stderr[-2000:]
 
     return run
 
@@ -222,9 +226,20 @@ def need_level():
     return need
 
 
-@pytest.fixture(scope="module", params=list(levels.LEVELS))
+STRONGEST = "strongest"
+
+
+@pytest.fixture(
+    scope="module",
+    params=[STRONGEST, *(pytest.param(name, marks=pytest.mark.slow) for name in levels.LEVELS)],
+)
 def each_level(request, need_level):
-    """Each isolation level that works here."""
+    """The strongest isolation level that works here; in slow tests, each of the others."""
+    strongest = levels.strongest()
+    if request.param == STRONGEST:
+        return strongest
+    if request.param == strongest:
+        pytest.skip(f"isolation {strongest} is the strongest here, which is not slow")
     need_level(request.param)
     return request.param
 

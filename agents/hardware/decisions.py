@@ -3,16 +3,12 @@
 import queue
 import threading
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Protocol
 
 from colift.agents.actions import checked_action
 from colift.agents.agent import Agent, Observation
 from colift.agents.errors import error_text
 from colift.agents.hardware.stops import HoldReason
-
-POLICY_SHARE: Final = 0.6
-"""Fraction of the control period that the policy may take; a later answer is discarded. The rest is
-for reading the robot and for the command."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -16,13 +16,11 @@ from colift.agents.hardware.plausibility import in_order, seen
 from colift.agents.hardware.ports import ArmState, Clock, MotionCapture, RobotArm
 from colift.agents.hardware.safety import ASTRAY, motor_fault
 from colift.agents.hardware.stops import Stop, StopTrialError, losses_stop
+from colift.agents.real_time import LOWEST_RATE
 from numpy.typing import NDArray
 
 REST_TIME: Final = 1.0
 """Duration of a measurement of the rest heights [s]."""
-
-LOWEST_RATE: Final = 50.0
-"""Lowest usable rate of the motion capture [1/s]; the paper's is 100 Hz."""
 
 STILL: Final = 0.003
 """Largest standard deviation of an end at rest [m]."""

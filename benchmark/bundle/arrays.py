@@ -4,8 +4,9 @@ import io
 import math
 import warnings
 import zipfile
-from collections.abc import Mapping
-from typing import Any, Final
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, BinaryIO, Final
 
 import numpy as np
 from colift.agents.errors import InputError, error_text
@@ -33,16 +34,38 @@ DTYPES: Final = ("<f8", "<i8", "|u1")
 Arrays = dict[str, NDArray[Any]]
 
 
-def dump_arrays(arrays: Mapping[str, NDArray[Any]]) -> bytes:
-    """Return the arrays as one ``.npz`` file, compressed, without pickles."""
-    data = io.BytesIO()
-    with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, array in arrays.items():
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Parts:
+    """An array that is written part by part, along its first axis."""
+
+    dtype: str
+    """One of :data:`DTYPES`."""
+    shape: tuple[int, ...]
+    parts: Iterable[NDArray[Any]]
+
+
+def write_arrays(file: BinaryIO, arrays: Iterable[tuple[str, Parts]]) -> None:
+    """Write arrays into one ``.npz`` file, compressed, without pickles, one part in memory."""
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, array in arrays:
             # A fixed date, so that equal arrays give equal files.
             entry = zipfile.ZipInfo(f"{name}.npy", date_time=_DATE)
             entry.compress_type = zipfile.ZIP_DEFLATED
-            with archive.open(entry, "w") as file:
-                np.lib.format.write_array(file, array, version=(1, 0), allow_pickle=False)
+            header = {"descr": array.dtype, "fortran_order": False, "shape": array.shape}
+            with archive.open(entry, "w") as member:
+                np.lib.format.write_array_header_1_0(member, header)
+                for part in array.parts:
+                    member.write(part.astype(array.dtype).tobytes())
+
+
+def dump_arrays(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """Return the arrays as one ``.npz`` file; see :func:`write_arrays`."""
+    data = io.BytesIO()
+    whole = {
+        name: Parts(dtype=array.dtype.str, shape=array.shape, parts=[array])
+        for name, array in arrays.items()
+    }
+    write_arrays(data, whole.items())
     return data.getvalue()
 
 

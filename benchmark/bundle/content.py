@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from typing import Any
 
-from colift.agents.hardware.decisions import POLICY_SHARE
+from colift.agents.real_time import POLICY_SHARE
 from colift.benchmark.bundle.table import one_line
 from colift.benchmark.channels import Channel
 from colift.benchmark.channels.recorded import recorded

@@ -5,7 +5,8 @@ import os
 import shutil
 import stat
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
@@ -83,8 +84,9 @@ def check_unfinished(folder: Path) -> None:
     raise InputError(f"{folder} holds a finished result bundle; name a new folder")
 
 
-def replace_folder(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Write the files as the only ones of a folder: all of them, or none.
+@contextmanager
+def replaced_folder(folder: Path) -> Iterator[Path]:
+    """Yield an empty folder that takes the place of another: if the body ends well, or not at all.
 
     Raises
     ------
@@ -95,8 +97,7 @@ def replace_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     with tempfile.TemporaryDirectory(dir=folder.parent) as temporary:
         made = Path(temporary) / "bundle"
         made.mkdir()
-        for name, data in files.items():
-            (made / name).write_bytes(data)
+        yield made
         if folder.exists():
             shutil.move(folder, Path(temporary) / "older")
         made.rename(folder)

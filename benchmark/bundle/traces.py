@@ -3,12 +3,14 @@
 import itertools
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
+from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
 from colift.agents.errors import InputError
-from colift.benchmark.bundle.arrays import Arrays, take_array
+from colift.benchmark.bundle.arrays import Arrays, Parts, take_array
 from colift.benchmark.bundle.files import TRACES
 from colift.benchmark.episode.recorder import HASH_BYTES
 from colift.benchmark.episode.trace import ADDED, BY_STEP, Trace
@@ -28,36 +30,55 @@ LARGEST_LIFT: Final = 2**24
 of internals take 11 MB."""
 
 
-def dump_traces(traces: Sequence[Trace], places: Sequence[int]) -> Arrays:
-    """Return the traces as arrays.
+def trace_arrays(
+    traces: Callable[[], Iterable[Trace]], places: Sequence[int]
+) -> Iterator[tuple[str, Parts]]:
+    """Yield the arrays of the traces by name.
 
     ``places``, ``frames`` and ``steps`` (k,) are each episode's place in the suite, counted from 0,
     and its numbers of frames and steps. They are followed by the series of :class:`.Trace`;
     ``task/NAME``, the series that the task adds; ``state``; and ``internals/NAME``, the policy's
     internals, NaN where it reports none. Internals whose names have characters other than letters,
     digits and ``_.-`` are left out.
+
+    ``traces`` begins the traces anew for each array: they may be more than memory holds.
     """
-    arrays: dict[str, NDArray[Any]] = {
-        "places": np.array(places, dtype="<i8"),
-        "frames": np.array([len(trace.human_end) for trace in traces], dtype="<i8"),
-        "steps": np.array([len(trace.action) for trace in traces], dtype="<i8"),
-    }
+    frames: list[int] = []
+    steps: list[int] = []
+    said: set[str] = set()
+    one = next(iter(traces()))
+    for trace in traces():
+        frames.append(len(trace.human_end))
+        steps.append(len(trace.action))
+        said |= trace.internals.keys()
+    for name, counts in (("places", places), ("frames", frames), ("steps", steps)):
+        yield name, Parts(dtype="<i8", shape=(len(counts),), parts=[np.array(counts)])
+
+    def joined(rows: Sequence[int], series: Callable[[Trace], NDArray[Any]]) -> Parts:
+        like = series(one)
+        kind = "<f8" if like.dtype.kind == "f" else like.dtype.str
+        parts = (series(trace) for trace in traces())
+        return Parts(dtype=kind, shape=(sum(rows), *like.shape[1:]), parts=parts)
+
     for name in Trace.series():
-        parts = [getattr(trace, name) for trace in traces]
-        arrays[name] = np.concatenate(parts).astype("<f8")
-    for name in traces[0].added:
-        parts = [trace.added[name] for trace in traces]
-        arrays[ADDED + name] = np.concatenate(parts).astype("<f8")
-    arrays["state"] = np.concatenate([trace.state for trace in traces])
-    said = sorted({name for trace in traces for name in trace.internals})
-    for name in [name for name in said if _PLAIN_NAME.fullmatch(name)][:MOST_INTERNALS]:
-        parts = [
-            trace.internals.get(name, np.full(len(trace.action), math.nan)) for trace in traces
-        ]
-        values = np.concatenate(parts).astype("<f8")
-        values[np.isnan(values)] = math.nan  # All 2^53 NaNs become the same one.
-        arrays[INTERNALS + name] = values
-    return arrays
+        yield name, joined(steps if name in BY_STEP else frames, attrgetter(name))
+    for name in one.added:
+        yield ADDED + name, joined(frames, partial(_added, name))
+    yield "state", joined(steps, attrgetter("state"))
+    for name in [name for name in sorted(said) if _PLAIN_NAME.fullmatch(name)][:MOST_INTERNALS]:
+        yield INTERNALS + name, joined(steps, partial(_reported, name))
+
+
+def _added(name: str, trace: Trace) -> NDArray[np.float64]:
+    return trace.added[name]
+
+
+def _reported(name: str, trace: Trace) -> NDArray[np.float64]:
+    """Return an internal of the policy, in which all 2^53 NaNs are the same one."""
+    values = trace.internals.get(name)
+    if values is None:
+        return np.full(len(trace.action), math.nan)
+    return np.where(np.isnan(values), math.nan, values)
 
 
 def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:

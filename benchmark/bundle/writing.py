@@ -5,21 +5,22 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from colift.benchmark.bundle.arrays import dump_arrays
+from colift.benchmark.bundle.arrays import write_arrays
 from colift.benchmark.bundle.files import (
     EPISODES,
     INPUTS,
+    LARGEST,
     LOGS,
     MANIFEST,
     RECORDINGS,
     RESULTS,
     TRACES,
-    replace_folder,
+    replaced_folder,
 )
 from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.bundle.recipe import Recipe
 from colift.benchmark.bundle.table import dump_table, treated
-from colift.benchmark.bundle.traces import dump_traces
+from colift.benchmark.bundle.traces import trace_arrays
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import Run
@@ -63,11 +64,9 @@ def write_bundle(
         As :func:`.check_bundle_folder`.
     """
     recipe = Recipe.of(run.suite, run.channel)
-    traces = [episode.trace for episode in run.episodes]
     files = {
         RESULTS: dump_json(content),
         EPISODES: dump_table(run.episodes, run.suite.metrics, treated(run.suite)),
-        TRACES: dump_arrays(dump_traces(traces, places(run))),
     }
     if recipe is not None and recipe.recordings is not None:
         files[RECORDINGS] = recipe.recordings
@@ -76,13 +75,24 @@ def write_bundle(
     logs = kept_logs(run.episodes)
     if logs:
         files[LOGS] = dump_json(logs)
-    manifest = {
-        "format": FORMAT,
-        "platform": dict(platform or fingerprint()),
-        "recipe": None if recipe is None else recipe.plain(),
-        "sha256": {name: hashlib.sha256(data).hexdigest() for name, data in files.items()},
-    }
-    replace_folder(folder, {**files, MANIFEST: dump_json(manifest)})
+    with replaced_folder(folder) as made:
+        for name, data in files.items():
+            (made / name).write_bytes(data)
+        with (made / TRACES).open("w+b") as file:
+            traces = trace_arrays(lambda: (each.trace for each in run.episodes), places(run))
+            write_arrays(file, traces)
+        manifest = {
+            "format": FORMAT,
+            "platform": dict(platform or fingerprint()),
+            "recipe": None if recipe is None else recipe.plain(),
+            "sha256": {name: _sha256(made / name) for name in LARGEST if (made / name).exists()},
+        }
+        (made / MANIFEST).write_bytes(dump_json(manifest))
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def places(run: Run) -> list[int]:

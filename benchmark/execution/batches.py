@@ -2,8 +2,9 @@
 
 import contextlib
 import dataclasses
+import itertools
 import time
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 from typing import Final
@@ -123,16 +124,15 @@ def batches(
     suite: Suite,
     done: Container[int] = (),
     channel: Channel | None = None,
-) -> list[Batch]:
-    """Return the rest of a suite: all episodes but those with a place in ``done``."""
-    found = []
+) -> Iterator[Batch]:
+    """Yield the rest of a suite: all episodes but those with a place in ``done``."""
     size = len(suite.seeds)
     for row in range(len(suite.scenarios)):
         for first in range(0, size, SEEDS_PER_BATCH):
             columns = range(first, min(first + SEEDS_PER_BATCH, size))
-            batch = _batch(policy, suite, row, columns, channel)
-            found.append(batch.without(done))
-    return [batch for batch in found if batch.places]
+            batch = _batch(policy, suite, row, columns, channel).without(done)
+            if batch.places:
+                yield batch
 
 
 def shuffled_batches(
@@ -141,8 +141,8 @@ def shuffled_batches(
     secret: bytes,
     done: Container[int] = (),
     channel: Channel | None = None,
-) -> list[Batch]:
-    """Return the rest of a suite, one episode per batch, in an order that follows from a secret.
+) -> Iterator[Batch]:
+    """Yield the rest of a suite, one episode per batch, in an order that follows from a secret.
 
     The position of an episode then does not reveal which one it is, and the order for one policy
     reveals nothing about the order for another.
@@ -154,7 +154,8 @@ def shuffled_batches(
 
     size = len(suite.seeds)
     places = sorted((place for place in range(suite.size) if place not in done), key=lot)
-    return [_batch(policy, suite, place // size, (place % size,), channel) for place in places]
+    for place in places:
+        yield _batch(policy, suite, place // size, (place % size,), channel)
 
 
 def _batch(
@@ -197,8 +198,12 @@ class Faults:
             raise EvaluatorFault(f"tried {ATTEMPTS} times: {error_text(error)}") from error
 
 
+MOST_WAITING: Final = 1100
+"""Largest number of batches that an executor has at a time: more than it has workers."""
+
+
 def run_batches(
-    batches: Sequence[Batch], executor: Executor | None, faults: Faults
+    batches: Iterable[Batch], executor: Executor | None, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
     """Yield the place of each episode, and the episode, as it is finished.
 
@@ -222,7 +227,7 @@ def run_batches(
     return _alone(batches, faults) if executor is None else _pooled(batches, executor, faults)
 
 
-def _alone(batches: Sequence[Batch], faults: Faults) -> Iterator[tuple[int, Episode]]:
+def _alone(batches: Iterable[Batch], faults: Faults) -> Iterator[tuple[int, Episode]]:
     try:
         for batch in batches:
             done: set[int] = set()
@@ -240,13 +245,16 @@ def _alone(batches: Sequence[Batch], faults: Faults) -> Iterator[tuple[int, Epis
 
 
 def _pooled(
-    batches: Sequence[Batch], executor: Executor, faults: Faults
+    batches: Iterable[Batch], executor: Executor, faults: Faults
 ) -> Iterator[tuple[int, Episode]]:
     waiting: dict[Future[list[tuple[int, Episode]]], tuple[Batch, int]] = {}
+    left = iter(batches)
     try:
-        for batch in batches:
-            waiting[_submitted(batch, executor)] = batch, 1
-        while waiting:
+        while True:
+            for batch in itertools.islice(left, MOST_WAITING - len(waiting)):
+                waiting[_submitted(batch, executor)] = batch, 1
+            if not waiting:
+                return
             for future in wait(waiting, return_when=FIRST_COMPLETED).done:
                 batch, attempt = waiting.pop(future)
                 try:

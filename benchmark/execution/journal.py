@@ -1,26 +1,17 @@
-"""The journal of a run, with its finished episodes: an interrupted run resumes from it.
-
-A record of the file is ``length of the payload (4 bytes) | CRC-32 of length and payload (4 bytes)
-| payload``, numbers little-endian, the payload msgpack. The file only grows: what was written
-before a crash can be read after it.
-"""
+"""The journal of a run, with its finished episodes: an interrupted run resumes from it."""
 
 import os
-import struct
 import sys
-import zlib
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
-import msgpack
-import numpy as np
 from colift.agents.errors import InputError, Remedy
+from colift.agents.submissions.folder import unwritable
 from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.trace import Trace
-from numpy.typing import NDArray
+from colift.benchmark.execution.records import append_record, episode_of, records
+from colift.benchmark.execution.shelf import EpisodeFile
 
 if sys.platform != "win32":
     import fcntl
@@ -28,31 +19,52 @@ if sys.platform != "win32":
 FORMAT: Final = "journal 1"
 
 
-class Journal:
+class Journal(EpisodeFile):
     """An open journal; see :func:`open_journal`."""
 
-    def __init__(self, path: Path, handle: int, done: Mapping[int, Episode]) -> None:
-        self._path = path
-        self._handle = handle
-        self.done = done
+    def __init__(self, path: Path, handle: int) -> None:
+        super().__init__(path, handle)
+        self.done: dict[int, Episode] = {}
         """The episodes that were finished earlier, by their place in the suite."""
 
-    def keep(self, place: int, episode: Episode) -> None:
-        """Append an episode; once this returns, it outlives this process.
+    def begin(self, run: Mapping[str, str], *, resume: bool) -> None:
+        """Find the episodes in the file, which then ends with a complete record.
 
         Raises
         ------
         InputError
-            If it cannot be written.
+            As :func:`open_journal`.
         """
+        found = records(self.file)
+        head, end = next(found, (None, 0))
+        size = os.fstat(self.handle).st_size
+        if size and not (isinstance(head, dict) and "format" in head):
+            raise InputError(
+                f"{self.path} is not a journal of colift; delete it or name another folder"
+            )
+        if resume and head is not None:
+            _compare(self.path, head, run)
+            for (place, content), after in found:
+                self.done[place] = self.shelved(episode_of(content), end)
+                end = after
+            os.truncate(self.handle, end)
+            return
+        lifts = sum(1 for _ in found)
+        if lifts:
+            raise InputError(
+                f"{self.path} holds {lifts} lifts of an interrupted run; resume it, name another "
+                "folder, or delete that file",
+                remedy=Remedy.RESUME,
+            )
         try:
-            append_record(self._handle, [place, record_of(episode)])
+            os.truncate(self.handle, 0)
+            append_record(self.handle, dict(run))
         except OSError as error:
-            raise _unwritable(self._path, error) from error
+            raise unwritable(self.path, error) from error
 
     def remove(self) -> None:
         """Delete the file: the run is complete, and its result is written."""
-        self._path.unlink(missing_ok=True)
+        self.path.unlink(missing_ok=True)
 
 
 def journal_path(bundle: Path) -> Path:
@@ -87,11 +99,12 @@ def open_journal(bundle: Path, run: Mapping[str, str], *, resume: bool) -> Itera
     try:
         handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
     except OSError as error:
-        raise _unwritable(path, error) from error
+        raise unwritable(path, error) from error
     try:
         _lock(handle, path)
-        done = _begin(path, handle, {"format": FORMAT, **run}, resume)
-        yield Journal(path, handle, done)
+        journal = Journal(path, handle)
+        journal.begin({"format": FORMAT, **run}, resume=resume)
+        yield journal
     finally:
         os.close(handle)
 
@@ -105,30 +118,6 @@ def _lock(handle: int, path: Path) -> None:
         raise InputError(f"another process with the same run writes to {path}") from None
 
 
-def _begin(path: Path, handle: int, run: Mapping[str, str], resume: bool) -> dict[int, Episode]:
-    """Return the episodes in the file, which then ends with a complete record."""
-    data = path.read_bytes()
-    found = list(records(data))
-    if data and not (found and isinstance(found[0][0], dict) and "format" in found[0][0]):
-        raise InputError(f"{path} is not a journal of colift; delete it or name another folder")
-    if resume and found:
-        _compare(path, found[0][0], run)
-        os.truncate(handle, found[-1][1])
-        return {place: episode_of(episode) for (place, episode), _ in found[1:]}
-    if found[1:]:
-        raise InputError(
-            f"{path} holds {len(found) - 1} lifts of an interrupted run; resume it, name another "
-            "folder, or delete that file",
-            remedy=Remedy.RESUME,
-        )
-    try:
-        os.truncate(handle, 0)
-        append_record(handle, dict(run))
-    except OSError as error:
-        raise _unwritable(path, error) from error
-    return {}
-
-
 def _compare(path: Path, then: Mapping[str, Any], now: Mapping[str, str]) -> None:
     """Raise an InputError that names the first difference, if there is one."""
     for name in dict.fromkeys((*now, *then)):
@@ -138,87 +127,3 @@ def _compare(path: Path, then: Mapping[str, Any], now: Mapping[str, str]) -> Non
                 f"the interrupted run had {name} {before!r}, this one has {here!r}; "
                 f"run it as it was, name another folder, or delete {path}"
             )
-
-
-def _unwritable(path: Path, error: OSError) -> InputError:
-    return InputError(f"cannot write to {path}: {error.strerror}")
-
-
-def record_of(episode: Episode) -> dict[str, Any]:
-    """Return an episode as numbers, texts and bytes."""
-    trace = episode.trace
-    return {
-        **{each.name: getattr(episode, each.name) for each in fields(Episode)},
-        "seed": str(episode.seed),  # A hidden seed has more bits than msgpack's numbers.
-        "scores": dict(episode.scores),
-        "trace": {
-            **{name: _packed(getattr(trace, name)) for name in (*Trace.series(), "state")},
-            "added": {name: _packed(values) for name, values in trace.added.items()},
-            "internals": {name: _packed(values) for name, values in trace.internals.items()},
-        },
-    }
-
-
-def episode_of(content: dict[str, Any]) -> Episode:
-    """Return the episode of a record; the inverse of :func:`record_of`."""
-    arrays = dict(content["trace"])
-    added, internals = (
-        {name: _unpacked(values) for name, values in arrays.pop(kind).items()}
-        for kind in ("added", "internals")
-    )
-    trace = {name: _unpacked(values) for name, values in arrays.items()}
-    return Episode(
-        **{
-            **content,
-            "seed": int(content["seed"]),
-            "trace": Trace(**trace, added=added, internals=internals),
-            "step_times": tuple(content["step_times"]),
-        }
-    )
-
-
-def _packed(values: NDArray[Any]) -> list[Any]:
-    return [values.dtype.str, list(values.shape), values.tobytes()]
-
-
-def _unpacked(content: list[Any]) -> NDArray[Any]:
-    kind, shape, data = content
-    return np.frombuffer(data, np.dtype(kind)).reshape(shape).copy()
-
-
-HEAD: Final = struct.Struct("<II")
-
-
-def append_record(handle: int, content: Any) -> None:
-    """Append a record to an open file, without a buffer in this process.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; the file may then end with a part of it.
-    """
-    payload = msgpack.packb(content, unicode_errors="surrogatepass")
-    data = HEAD.pack(len(payload), _checksum(payload)) + payload
-    while data:
-        data = data[os.write(handle, data) :]
-
-
-def records(data: bytes) -> Iterator[tuple[Any, int]]:
-    """Yield the content of each complete record, and the offset of its end.
-
-    Reading stops at the first record that is cut off or does not match its checksum.
-    """
-    begin = 0
-    while begin + HEAD.size <= len(data):
-        length, checksum = HEAD.unpack_from(data, begin)
-        begin += HEAD.size
-        payload = data[begin : begin + length]
-        if len(payload) != length or _checksum(payload) != checksum:
-            return
-        begin += length
-        yield msgpack.unpackb(payload, unicode_errors="surrogatepass"), begin
-
-
-def _checksum(payload: bytes) -> int:
-    # The length is included, so that zeros, which a crash can leave, are not a valid record.
-    return zlib.crc32(payload, zlib.crc32(len(payload).to_bytes(4, "little")))

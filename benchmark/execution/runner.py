@@ -9,6 +9,7 @@ from colift.benchmark.channels import Channel
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.execution.batches import Faults, batches, run_batches, shuffled_batches
 from colift.benchmark.execution.packaging import packaged
+from colift.benchmark.execution.shelf import Shelf, Spool
 from colift.benchmark.suites.suite import Suite
 
 
@@ -62,6 +63,7 @@ def run_suite(
     progress: Callable[[int], None] = lambda episodes: None,
     done: Mapping[int, Episode] | None = None,
     keep: Callable[[int, Episode], None] = lambda place, episode: None,
+    shelf: Shelf | None = None,
     secret: bytes | None = None,
     channel: Channel | None = None,
 ) -> Run:
@@ -83,7 +85,9 @@ def run_suite(
     done
         Episodes of an earlier run by their place in the suite; they are not played again.
     keep
-        Called with the place and the episode whenever an episode is finished.
+        Called with the place and the episode whenever an episode is finished and on the shelf.
+    shelf
+        Where finished episodes go, such as a journal; None is a :class:`.Spool`.
     secret
         Determines the order of the episodes; see :func:`.shuffled_batches`. None plays them in
         the suite's order.
@@ -100,13 +104,13 @@ def run_suite(
     InputError
         If the policy cannot be loaded, or a channel would lead to a second person.
     EvaluatorFault
-        If the machine fails repeatedly; the finished episodes went to ``keep``.
+        If the machine fails repeatedly; the finished episodes went to ``shelf`` and ``keep``.
     InterruptedRunError
         After Ctrl-C, even during the last episode; with the episodes that were finished by then.
     """
     policy = placed(policy, executor)
     policy.check()
-    found = dict(done or {})
+    found, shelf = dict(done or {}), shelf or Spool()
     if found:
         progress(len(found))
     faults = Faults()
@@ -117,8 +121,8 @@ def run_suite(
     interrupted = False
     try:
         for place, episode in run_batches(wanted, executor, faults):
-            found[place] = episode
-            keep(place, episode)
+            found[place] = shelf.keep(place, episode)
+            keep(place, found[place])
             progress(1)
     except KeyboardInterrupt:
         interrupted = True

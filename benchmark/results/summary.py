@@ -1,6 +1,7 @@
 """The summary of a run: from episodes to the numbers of a results table."""
 
 import dataclasses
+from array import array
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Self
@@ -22,12 +23,18 @@ class StepTimes:
 
     @classmethod
     def of(cls, run: Run) -> Self:
-        """Return the percentiles of a run."""
-        times = [time for episode in run.episodes for time in episode.step_times]
+        """Return the percentiles of a run.
+
+        A long run has millions of steps: they are in single precision, and sorted in place.
+        """
+        times = array("f")
+        for episode in run.episodes:
+            times.extend(episode.step_times)
         if not times:
             return cls()
-        p50, p99 = 1000 * np.percentile(times, [50, 99])
-        return cls(p50=float(p50), p99=float(p99))
+        found = np.percentile(np.frombuffer(times, np.float32), [50, 99], overwrite_input=True)
+        p50, p99 = (1000 * float(each) for each in found)
+        return cls(p50=p50, p99=p99)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,7 @@ from colift.benchmark.statistics.samples import (
     Members,
     expanded,
     members_of,
-    resample,
+    resampled,
     sample,
 )
 from numpy.typing import ArrayLike
@@ -78,11 +78,11 @@ def stratified_bootstrap(
     """
     x = sample("values", values)
     members = members_of(strata, x.size)
-    drawn = resample(members, resamples, seed)
-    return expanded_percentile(statistic(x[drawn], axis=-1), members, confidence)
+    found = resampled(lambda drawn: statistic(x[drawn], axis=-1), members, resamples, seed)
+    return expanded_percentile(found, members, confidence)
 
 
-def expanded_percentile(resampled: FloatArray, members: Members, confidence: float) -> Interval:
+def expanded_percentile(found: FloatArray, members: Members, confidence: float) -> Interval:
     """Return Hesterberg's expanded percentile interval of a resampled statistic, shape (n,).
 
     Raises
@@ -94,5 +94,5 @@ def expanded_percentile(resampled: FloatArray, members: Members, confidence: flo
         raise InputError(f"confidence is {confidence}; it must lie between 0 and 1, such as 0.95")
     z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
     tail = NormalDist().cdf(-expanded(z, members))
-    low, high = np.quantile(resampled, (tail, 1.0 - tail))
+    low, high = np.quantile(found, (tail, 1.0 - tail))
     return float(low), float(high)

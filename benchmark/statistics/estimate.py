@@ -7,9 +7,16 @@ from typing import Self
 import numpy as np
 from colift.agents.errors import InputError
 from colift.benchmark.statistics.bootstrap import expanded_percentile, stratified_bootstrap
-from colift.benchmark.statistics.samples import Interval, members_of, paired, resample, sample
+from colift.benchmark.statistics.samples import (
+    FloatArray,
+    Interval,
+    members_of,
+    paired,
+    resampled,
+    sample,
+)
 from colift.benchmark.statistics.superiority import share_better
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,8 +95,9 @@ def ratio_of_means(
     if b.min() <= 0.0:
         raise InputError(f"denominator {b.min()} of episode {b.argmin()} must be positive")
     members = members_of(strata, a.size)
-    drawn = resample(members, resamples, seed)
-    ratios = a[drawn].mean(axis=-1) / b[drawn].mean(axis=-1)
+    ratios = resampled(
+        lambda drawn: a[drawn].mean(axis=-1) / b[drawn].mean(axis=-1), members, resamples, seed
+    )
     return Estimate(
         mean=float(a.mean() / b.mean()), ci95=expanded_percentile(ratios, members, confidence)
     )
@@ -131,8 +139,14 @@ def difference_of_means(
     x, y = sample("a", a), sample("b", b)
     members_a, members_b = members_of(strata_a, x.size), members_of(strata_b, y.size)
     members = [*members_a, *(stratum + x.size for stratum in members_b)]
-    drawn = np.concatenate((x, y))[resample(members, resamples, seed)]
-    differences = drawn[:, : x.size].mean(axis=-1) - drawn[:, x.size :].mean(axis=-1)
+    both = np.concatenate((x, y))
+
+    def difference(drawn: NDArray[np.intp]) -> FloatArray:
+        values = both[drawn]
+        means: FloatArray = values[:, : x.size].mean(axis=-1) - values[:, x.size :].mean(axis=-1)
+        return means
+
+    differences = resampled(difference, members, resamples, seed)
     interval = expanded_percentile(differences, members, confidence)
     return Estimate(mean=float(x.mean() - y.mean()), ci95=interval)
 

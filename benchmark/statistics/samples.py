@@ -1,9 +1,10 @@
 """Samples: one value per episode, pairs on the same episodes, and resampling within strata."""
 
+import copy
 import functools
 import math
-from collections.abc import Hashable, Iterable
-from typing import TypeVar
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Final, TypeVar
 
 import numpy as np
 from colift.agents.errors import InputError
@@ -87,6 +88,44 @@ def _drawn(strata: tuple[bytes, ...], resamples: int, seed: int) -> NDArray[np.i
     )
     drawn.setflags(write=False)
     return drawn
+
+
+MOST_DRAWN: Final = 2**20
+"""Largest number of indices that are drawn at once and kept for the next statistic."""
+
+BLOCK: Final = 2**17
+"""Number of indices, at most, in each part of a larger draw."""
+
+
+def resampled(
+    statistic: Callable[[NDArray[np.intp]], FloatArray],
+    members: Members,
+    resamples: int,
+    seed: int,
+) -> FloatArray:
+    """Return a statistic of each resample of :func:`resample`, shape (resamples,).
+
+    ``statistic`` is a function of the indices of resampled episodes, (k, n), and has k values. In a
+    large sample it is called with a few resamples at a time, whose memory is bounded.
+    """
+    episodes = sum(stratum.size for stratum in members)
+    if resamples * episodes <= MOST_DRAWN:
+        return statistic(resample(members, resamples, seed))
+    rows = max(1, BLOCK // episodes)
+    sizes = [min(rows, resamples - first) for first in range(0, resamples, rows)]
+    return np.concatenate([statistic(block) for block in _blocks(members, sizes, seed)])
+
+
+def _blocks(members: Members, sizes: list[int], seed: int) -> Iterator[NDArray[np.intp]]:
+    """Yield the rows of :func:`resample` in blocks; each stratum has its part of the draws."""
+    rng, streams = np.random.default_rng(seed), []
+    for stratum in members:
+        streams.append(copy.deepcopy(rng))
+        for size in sizes:
+            rng.choice(stratum, (size, stratum.size))
+    for size in sizes:
+        parts = zip(streams, members, strict=True)
+        yield np.concatenate([own.choice(some, (size, some.size)) for own, some in parts], axis=1)
 
 
 def expanded(z: Deviate, members: Members) -> Deviate:

@@ -16,7 +16,7 @@ from statistics import NormalDist
 from typing import Final
 
 import numpy as np
-from colift.benchmark.statistics.samples import Members, expanded, members_of, paired, resample
+from colift.benchmark.statistics.samples import Members, expanded, members_of, paired, resampled
 from numpy.typing import ArrayLike
 
 DEVIATES: Final = np.linspace(-8.0, 8.0, 3201)
@@ -63,7 +63,8 @@ def probability_better(
     """
     x, y = paired("a", a, "b", b)
     members = members_of(strata, x.size)
-    means = (x - y)[resample(members, resamples, seed)].mean(axis=-1)
+    left = x - y
+    means = resampled(lambda drawn: left[drawn].mean(axis=-1), members, resamples, seed)
     below = float((means < 0.0).sum() + 0.5 * (means == 0.0).sum())
     return NormalDist().cdf(
         _unexpanded(NormalDist().inv_cdf((below + 0.5) / (resamples + 1)), members)

@@ -1,6 +1,6 @@
 """The report of a policy's failures, with the end of its output; the early end of a dead one."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Final
 
 from colift.benchmark.bundle import one_line
@@ -25,22 +25,14 @@ class DeadPolicyError(Exception):
 
 
 class LifeWatch:
-    """Keeps the episodes of a run, and ends it if the policy is dead.
+    """Watches the episodes of a run, and ends it if the policy is dead."""
 
-    Parameters
-    ----------
-    keep
-        Keeps an episode with its place in the suite.
-    """
-
-    def __init__(self, keep: Callable[[int, Episode], None]) -> None:
-        self._keep = keep
+    def __init__(self) -> None:
         self._alive = False
         self._dead: dict[int, Episode] = {}
 
     def __call__(self, place: int, episode: Episode) -> None:
-        """Keep an episode; raise a DeadPolicyError if it is the last that had to be awaited."""
-        self._keep(place, episode)
+        """Watch an episode; raise a DeadPolicyError if it is the last that had to be awaited."""
         failure = episode.failure or ""
         self._alive = self._alive or not failure.startswith((START, f"{STEP}0:"))
         if self._alive:

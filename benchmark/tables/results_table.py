@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 from colift.agents.actions import HAND_SPEED
-from colift.agents.hardware.setup import LOWEST_RATE
+from colift.agents.real_time import LOWEST_RATE
 from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from colift.benchmark.bundle import Results
 from colift.benchmark.channels import channel_name

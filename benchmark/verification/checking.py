@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.errors import EvaluatorFault
-from colift.agents.hardware.decisions import POLICY_SHARE
+from colift.agents.real_time import POLICY_SHARE
 from colift.agents.spec import AgentSpec
 from colift.benchmark.bundle import Results, results
 from colift.benchmark.episode.episode import Episode

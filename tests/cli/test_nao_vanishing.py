@@ -82,7 +82,10 @@ def run(emulate):
         each.process.wait()
 
 
-@pytest.mark.parametrize("name", ["SIGHUP", "SIGQUIT", "SIGTSTP"])
+@pytest.mark.parametrize(
+    "name",
+    ["SIGHUP", *(pytest.param(each, marks=pytest.mark.slow) for each in ("SIGQUIT", "SIGTSTP"))],
+)
 def test_a_hang_up_ends_like_the_stop_button(run, name):
     begun = run("--yes").lifting()
     begun.process.send_signal(getattr(signal, name))
@@ -102,7 +105,7 @@ os.execv(sys.executable, [sys.executable, *sys.argv[1:]])
 """A process that takes its input as its controlling terminal, and becomes another."""
 
 
-@pytest.mark.parametrize("controlling", [True, False])
+@pytest.mark.parametrize("controlling", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_a_terminal_that_vanishes_ends_like_the_stop_button(emulate, controlling):
     """Its operator confirms each step, and is gone in the middle of the lift."""
     laboratory = emulate()
@@ -170,6 +173,7 @@ def test_a_controller_that_was_stopped_sends_nothing_but_the_stop(run):
     assert is_free(begun.laboratory)
 
 
+@pytest.mark.slow
 def test_a_controller_that_is_stopped_for_long_is_replaced_by_its_watchdog(run):
     begun = run("--yes", stderr=subprocess.PIPE).lifting()
     begun.process.send_signal(signal.SIGSTOP)
@@ -182,7 +186,9 @@ def test_a_controller_that_is_stopped_for_long_is_replaced_by_its_watchdog(run):
     assert is_free(begun.laboratory)
 
 
-@pytest.mark.parametrize("during", ["lift 1 seed", "motion angleInterpolation"])
+@pytest.mark.parametrize(
+    "during", ["lift 1 seed", pytest.param("motion angleInterpolation", marks=pytest.mark.slow)]
+)
 def test_a_controller_that_is_killed_is_replaced_by_its_watchdog(run, during):
     begun = run("--yes")
     begun.laboratory.await_line(during, seconds=100)
@@ -193,6 +199,7 @@ def test_a_controller_that_is_killed_is_replaced_by_its_watchdog(run, during):
 
 
 @pytest.mark.parametrize("seed", range(INTERRUPTS))
+@pytest.mark.slow
 def test_ctrl_c_at_any_moment_leaves_the_arms_safe(run, seed):
     """Also while it loads, and in the set-up; twice, as impatient people do."""
     moment = random.Random(seed).uniform(0.3, 12.0)

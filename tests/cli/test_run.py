@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 from colift.agents.extras import how_to_install
 from colift.agents.submissions.new import write_template
-from colift.benchmark.execution.journal import journal_path, records
+from colift.benchmark.execution.journal import journal_path
+from colift.benchmark.execution.records import records
 from colift.benchmark.profiling.loopback import loopback_cluster
 
 SLOW = """
@@ -82,10 +83,16 @@ def besides_isolation(told):
     return "".join(line for line in lines if " does not work here: " not in line)
 
 
+def recorded(path):
+    """Return the number of records in a file."""
+    with path.open("rb") as file:
+        return len(list(records(file)))
+
+
 def wait_for_episodes(bundle, count, process):
     """Wait until so many episodes of a run are in its journal."""
     path, end = journal_path(bundle), time.monotonic() + 240
-    while not path.exists() or len(list(records(path.read_bytes()))) <= count:
+    while not path.exists() or recorded(path) <= count:
         assert process.poll() is None
         assert time.monotonic() < end
         time.sleep(0.01)
@@ -149,7 +156,7 @@ def interrupted(killed, tmp_path):
 def test_a_killed_run_goes_on_to_the_same_bundle(slow, whole, interrupted, torn):
     path = journal_path(interrupted)
     os.truncate(path, path.stat().st_size - torn)
-    assert 1 < len(list(records(path.read_bytes()))) < 13
+    assert 1 < recorded(path) < 13
     told = run(slow, "--suite", "quick-v1", "--jobs", 2, "--out", interrupted, "--resume")
     assert told == (0, "")
     assert timeless(interrupted) == whole

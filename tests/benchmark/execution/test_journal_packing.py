@@ -11,7 +11,7 @@ from colift.agents.policies.blend import Blend
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.execution.journal import episode_of, record_of
+from colift.benchmark.execution.records import episode_of, record_of
 from colift.benchmark.suites.catalogue import make_scenario
 
 HIDDEN_SEED = 2**127 + 3

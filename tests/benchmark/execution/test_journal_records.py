@@ -1,9 +1,11 @@
 """Records: what was written whole is read, whatever came after it."""
 
+import io
 import os
 
 import pytest
-from colift.benchmark.execution.journal import HEAD, append_record, records
+from colift.benchmark.execution import records as records_of_files
+from colift.benchmark.execution.records import HEAD, append_record
 
 CONTENTS = [
     {"format": "a"},
@@ -11,6 +13,11 @@ CONTENTS = [
     [1, b"\x00\xff" * 1000],
     "\ud800 no text",
 ]
+
+
+def records(data):
+    """The records of a file with these bytes."""
+    return records_of_files.records(io.BytesIO(data))
 
 
 @pytest.fixture

@@ -19,6 +19,8 @@ KERNELS = {
     "four threads": {f"{name}_NUM_THREADS": "4" for name in ("OMP", "OPENBLAS", "MKL")},
 }
 
+FIRST, *OTHERS = KERNELS
+
 LIBM = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX512F"}
 """Makes the C library take other functions, which the engine uses, too."""
 
@@ -106,7 +108,9 @@ def plain():
     return said(OURS)
 
 
-@pytest.mark.parametrize("kernel", KERNELS)
+@pytest.mark.parametrize(
+    "kernel", [FIRST, *(pytest.param(name, marks=pytest.mark.slow) for name in OTHERS)]
+)
 def test_humans_world_and_scores_have_the_same_bits(plain, kernel):
     name, found = said(OURS, **KERNELS[kernel])
     assert found == plain[1]
@@ -138,6 +142,7 @@ def folder(tmp_path):
 
 
 @pytest.mark.parametrize("kernel", [*KERNELS, "libm"])
+@pytest.mark.slow
 def test_a_policy_has_the_same_bits_in_a_sandbox(folder, kernel):
     found = said(FOREIGN, str(folder), *working_levels(), **KERNELS.get(kernel, LIBM))
     assert all(digests == found["none"] for digests in found.values())
@@ -159,6 +164,7 @@ def command(folder, *arguments, **environment):
     not fingerprint()["linear_algebra"].startswith("openblas"), reason="NumPy has another BLAS"
 )
 @pytest.mark.parametrize(("policy", "there"), [("copy", True), ("mixed/policy.py:Policy", False)])
+@pytest.mark.slow
 def test_a_bundle_is_verified_with_another_kernel_to_the_bit(folder, policy, there):
     kernel = {"OPENBLAS_CORETYPE": "Prescott"}
     one, other = (kernel, {}) if there else ({}, kernel)

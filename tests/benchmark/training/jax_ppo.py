@@ -106,6 +106,7 @@ def test_the_objective_ignores_gains_beyond_the_clip(parameters, played):
     assert there == pytest.approx(-(1 + TINY.clip), abs=1e-2)
 
 
+@pytest.mark.slow
 def test_it_learns(trained):
     before = validation_error(
         partial(Policy, Network(actor_critic.weights(ppo.start(TINY, 0).parameters)))

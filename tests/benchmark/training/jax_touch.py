@@ -66,6 +66,7 @@ def test_the_manners_of_a_batch_are_drawn_anew_about_those_of_the_population(tas
         assert np.array_equal(one[name], other[name])
 
 
+@pytest.mark.slow
 def test_a_training_ends_with_a_submission_that_plays_its_task(tmp_path, monkeypatch, whole):
     monkeypatch.setattr(validation, "VALIDATION_SEEDS", VALIDATION_SEEDS[:2])
     course = open_course(tmp_path, NAME, TINY, 0)

@@ -87,6 +87,7 @@ def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
+@pytest.mark.slow
 def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
     @jax.jit
     @jax.value_and_grad

@@ -89,6 +89,7 @@ def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
     assert np.abs(twin / engine - 1).max() < 0.015
 
 
+@pytest.mark.slow
 def test_an_agent_that_amplifies_differences_has_the_same_mean():
     drawn = stack_touch([draw_touch(scenario, seed) for scenario, seed in MANY])
     (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(TWIN, BallGame, drawn)
@@ -101,6 +102,7 @@ def test_a_ball_that_falls_counts_as_in_the_engine(drawn):
     assert np.abs(twin / engine - 1).max() < 0.015
 
 
+@pytest.mark.slow
 def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
     @jax.jit
     @jax.value_and_grad

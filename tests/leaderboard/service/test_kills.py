@@ -125,6 +125,7 @@ def expected(folder, tmp_path, opening, zipped):
     return rows
 
 
+@pytest.mark.slow
 def test_every_accepted_submission_gets_the_row_that_it_gets_undisturbed(
     folder, serve, expected, ada, zipped, opening
 ):
