@@ -13,7 +13,7 @@ from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS, Recorded, load_recordings
 from colift.agents.plugins import article, blaming
 from colift.agents.registry import SUITES, called, lookup
-from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.identity import plain, scores_hash
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import RECORDED, make_scenario
@@ -66,7 +66,6 @@ class Suite:
         Results with different digests never share a table.
         """
         content = {
-            "numbers": plain(numbers()),
             "code": scores_hash(),
             "scenarios": [plain(scenario) for scenario in self.scenarios],
             "seeds": self.seeds,
