@@ -61,8 +61,8 @@ class Suite:
     def digest(self) -> str:
         """SHA-256 (16 hexadecimal digits) over everything that changes a number.
 
-        It covers the scenarios with all parameters of behaviour and subject, the seeds, the
-        declared :func:`.numbers`, and the code that plays and scores, without names and words.
+        It covers the scenarios with all parameters of behaviour and subject, the seeds, and the
+        code that plays and scores with all its numbers, without names and words.
         Results with different digests never share a table.
         """
         content = {
