@@ -50,6 +50,9 @@ class Code:
         self.modules: dict[str, Module | None] = {**(modules or {})}
         self._found: dict[Target, Piece] = {}
         self._pieces: dict[Reference, list[Piece]] = {}
+        self._valued: set[Reference] = set()
+        """Definitions whose values count, as they are when a hash is asked for."""
+        self._walks: dict[tuple[object, object], tuple[str, list[Reference]]] = {}
 
     def hash(self, *roots: Root, without: Iterable[object] = ()) -> str:
         """Return the hash of the roots' behaviour, with all that they use, directly or not.
@@ -66,8 +69,12 @@ class Code:
         without
             Values of definitions that are not followed, since they are stated elsewhere.
         """
-        text = "\n".join(self._walk(roots, without)[0])
-        return hashlib.sha256(text.encode()).hexdigest()[:16]
+        key = roots, tuple(map(id, without))
+        if key not in self._walks:
+            self._walks[key] = self._walk(roots, without)
+        text, used = self._walks[key]
+        values = [value_text(each.value()) for each in used if each in self._valued]
+        return hashlib.sha256("\n".join([text, *values]).encode()).hexdigest()[:16]
 
     def definitions(self, *roots: Root, without: Iterable[object] = ()) -> list[Reference]:
         """Return every definition that the roots use, themselves among them."""
@@ -82,7 +89,7 @@ class Code:
 
     def _walk(
         self, roots: Iterable[Root], without: Iterable[object]
-    ) -> tuple[list[str], list[Reference]]:
+    ) -> tuple[str, list[Reference]]:
         stated = {id(value): f"(stated {i})" for i, value in enumerate(without)}
         numbers: dict[Reference, str] = {}
         queue: list[Reference] = []
@@ -109,7 +116,7 @@ class Code:
             if i + 1 == len(queue):
                 for each in dict.fromkeys(each.module for each in queue):
                     enter(self._effects(each))
-        return texts, queue
+        return "\n".join(texts), queue
 
     def _read(self, reference: Reference) -> list[Piece]:
         """Return a definition as texts and references to other definitions."""
@@ -134,12 +141,12 @@ class Code:
         own = module.top == COLIFT
         if not FINDERS.isdisjoint(pieces):
             pieces.append(data_hash(module, statements, everything=not own))
-        value = reference.value()
+        # What our own calls return, such as a file's number, may differ between processes.
+        calls = own and "Call" in {str(each)[:4] for each in pieces}
         if reference.name not in module.rebound and (
-            # What our own calls return, such as a file's number, may differ between processes.
-            not own or isinstance(value, type) or "Call" not in {str(each)[:4] for each in pieces}
+            not calls or isinstance(reference.value(), type)
         ):
-            pieces.append(value_text(value))
+            self._valued.add(reference)
         return pieces
 
     def _meaning(self, use: Use, statement: Statement, module: Module, of: str) -> list[Piece]:

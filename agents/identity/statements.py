@@ -160,7 +160,7 @@ class Statement:
             for each in _working(values, inner) if name.endswith("body") else values:
                 if isinstance(each, ast.AST):
                     found.append((each, inner))
-                    # An import in a function is told where its names are used.
+                    # The uses of what a function imports name its place.
                     text += [] if inner.kind == "function" and type(each) in IMPORTS else ["."]
                 elif each is not None and (kind, name) in NAMING:
                     found.append((ast.Name(each, ast.Store()), region))

@@ -39,7 +39,6 @@ def simulation_hash() -> str:
     return code_hash(*SIMULATES, *tasks, *humans, without=stated)
 
 
-@functools.cache
 def scores_hash() -> str:
     """Return the hash of the code that plays and scores; behaviours enter with their scenarios."""
     return code_hash(*PLAYS_AND_SCORES, without=STATED)
@@ -49,7 +48,7 @@ def plain(value: Any) -> Any:
     """Return a JSON-ready description of frozen parameters, and the code of their classes."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {each.name: plain(getattr(value, each.name)) for each in dataclasses.fields(value)}
-        return {"": _code(type(value)), **fields}
+        return {"": _code(type(value)), "limits of metrics": _limits(value), **fields}
     if isinstance(value, Mapping):
         return {name: plain(each) for name, each in value.items()}
     if isinstance(value, np.ndarray):
@@ -60,8 +59,12 @@ def plain(value: Any) -> Any:
 
 
 @functools.cache
-def _code(kind: type) -> dict[str, Any]:
-    """Return the hash of a class, and the values above which its metrics say that a lift failed."""
-    metrics = getattr(kind, "metrics", {})
-    limits = {name: each.limit for name, each in metrics.items() if each.limit is not None}
-    return {"code": code_hash(kind, without=(*STATED, metrics)), "limits": limits}
+def _code(kind: type) -> str:
+    metrics = [kind.metrics] if hasattr(kind, "metrics") else []
+    return code_hash(kind, without=(*STATED, *metrics))
+
+
+def _limits(task: object) -> dict[str, float]:
+    """Return the values of a task's metrics above which a lift has missed its goal."""
+    metrics = getattr(task, "metrics", {})
+    return {name: each.limit for name, each in metrics.items() if each.limit is not None}

@@ -91,7 +91,7 @@ def edited(path, old, new):
         edited(
             "task.py",
             "FILE =",
-            "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .plots import Plot\nFILE =",
+            "import typing\nif typing.TYPE_CHECKING:\n    from .plots import Plot\nFILE =",
         ),
         {
             "task.py": PACKAGE["task.py"]
