@@ -4,6 +4,8 @@ import builtins
 import functools
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from importlib import import_module
 from typing import Any, Final
 
 from colift.agents.identity.data import data_hash
@@ -54,7 +56,7 @@ class Code:
         """Definitions whose values count, as they are when a hash is asked for."""
         self._walks: dict[tuple[object, object], tuple[str, list[Reference]]] = {}
 
-    def hash(self, *roots: Root, without: Iterable[object] = ()) -> str:
+    def hash(self, *roots: Root, without: Iterable[object] = (), values: bool = False) -> str:
         """Return the hash of the roots' behaviour, with all that they use, directly or not.
 
         Definitions are numbered as they are reached. So the hash stays the same when something is
@@ -68,13 +70,17 @@ class Code:
             its name.
         without
             Values of definitions that are not followed, since they are stated elsewhere.
+        values
+            Whether constants and attributes of classes count as they are now, too. All modules
+            with definitions that are reached must have been imported.
         """
         key = roots, tuple(map(id, without))
         if key not in self._walks:
             self._walks[key] = self._walk(roots, without)
         text, used = self._walks[key]
-        values = [value_text(each.value()) for each in used if each in self._valued]
-        return hashlib.sha256("\n".join([text, *values]).encode()).hexdigest()[:16]
+        valued = [each for each in used if values and each in self._valued]
+        texts = [text, *(value_text(each.value()) for each in valued)]
+        return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
     def definitions(self, *roots: Root, without: Iterable[object] = ()) -> list[Reference]:
         """Return every definition that the roots use, themselves among them."""
@@ -83,8 +89,11 @@ class Code:
     def module(self, name: str) -> Module | None:
         """Return a module of the packages; None if no source of that name is known."""
         if name not in self.modules:
-            ours = name.partition(".")[0] in self._packages
-            self.modules[name] = read_module(name) if ours else None
+            top = name.partition(".")[0]
+            if top in self._packages - {COLIFT}:
+                with suppress(Exception):  # As a lift would; a module may raise anything.
+                    import_module(name)
+            self.modules[name] = read_module(name) if top in self._packages else None
         return self.modules[name]
 
     def _walk(
@@ -142,9 +151,9 @@ class Code:
         if not FINDERS.isdisjoint(pieces):
             pieces.append(data_hash(module, statements, everything=not own))
         # What our own calls return, such as a file's number, may differ between processes.
-        calls = own and "Call" in {str(each)[:4] for each in pieces}
+        of_call = own and "Call" in {str(each)[:4] for each in pieces}
         if reference.name not in module.rebound and (
-            not calls or isinstance(reference.value(), type)
+            not of_call or isinstance(reference.value(), type)
         ):
             self._valued.add(reference)
         return pieces
@@ -225,14 +234,14 @@ def _code(packages: frozenset[str]) -> Code:
     return Code(packages)
 
 
-def code_hash(*roots: Root, without: Iterable[object] = ()) -> str:
+def code_hash(*roots: Root, without: Iterable[object] = (), values: bool = False) -> str:
     """Return the hash of the behaviour of functions and classes; see :meth:`Code.hash`.
 
     It covers colift and the packages of the roots.
     """
     modules = (each[0] if isinstance(each, Reference) else each.__module__ for each in roots)
     packages = {COLIFT, *(each.partition(".")[0] for each in modules)}
-    return _code(frozenset(packages)).hash(*roots, without=without)
+    return _code(frozenset(packages)).hash(*roots, without=without, values=values)
 
 
 def source_hash(source: bytes) -> str:

@@ -3,7 +3,6 @@
 import ast
 import sys
 from collections.abc import Iterator, Sequence
-from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from typing import Any, Final, NamedTuple
 
@@ -26,11 +25,8 @@ class Reference(NamedTuple):
     name: str
 
     def value(self) -> object:
-        """Return what the imported module has under the name; None if nothing."""
-        try:
-            return vars(import_module(self.module)).get(self.name)
-        except Exception:  # A module may raise anything, and so may what it imports.
-            return None
+        """Return what the module has under the name; None if nothing, or if it is not imported."""
+        return getattr(sys.modules.get(self.module), "__dict__", {}).get(self.name)
 
 
 class Module:

@@ -36,12 +36,12 @@ def simulation_hash() -> str:
     """Return the hash of the code that simulates, with all tasks and behaviours of colift."""
     tasks, humans = ([lookup(each, name) for name in own_entries(each)] for each in (TASKS, HUMANS))
     stated = (*STATED, *(task.metrics for task in tasks))
-    return code_hash(*SIMULATES, *tasks, *humans, without=stated)
+    return code_hash(*SIMULATES, *tasks, *humans, without=stated, values=True)
 
 
 def scores_hash() -> str:
     """Return the hash of the code that plays and scores; behaviours enter with their scenarios."""
-    return code_hash(*PLAYS_AND_SCORES, without=STATED)
+    return code_hash(*PLAYS_AND_SCORES, without=STATED, values=True)
 
 
 def plain(value: Any) -> Any:
@@ -61,7 +61,7 @@ def plain(value: Any) -> Any:
 @functools.cache
 def _code(kind: type) -> str:
     metrics = [kind.metrics] if hasattr(kind, "metrics") else []
-    return code_hash(kind, without=(*STATED, *metrics))
+    return code_hash(kind, without=(*STATED, *metrics), values=True)
 
 
 def _limits(task: object) -> dict[str, float]:

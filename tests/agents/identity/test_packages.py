@@ -67,7 +67,7 @@ def digest(tmp_path, monkeypatch):
             place.parent.mkdir(parents=True, exist_ok=True)
             place.write_text(text)
         importlib.invalidate_caches()
-        return code_hash(importlib.import_module(f"{name}.task").Task)
+        return code_hash(importlib.import_module(f"{name}.task").Task, values=True)
 
     yield hashed
     for name in [each for each in sys.modules if each.startswith("package")]:
@@ -147,3 +147,14 @@ def test_what_the_environment_sets_counts(digest, monkeypatch):
         monkeypatch.setenv("GAIN", value)
         found.append(digest(**read))
     assert found[0] == found[2] != found[1]
+
+
+def test_what_is_imported_late_counts_before_and_after(digest):
+    late = edited("task.py", "+ TABLE", "+ late() + TABLE")
+    late["task.py"] += "\ndef late():\n    from .late import OFFSET\n    return OFFSET\n"
+    one, other = ({**late, "late.py": f"OFFSET = {value}\n"} for value in (1.0, 1.5))
+    assert digest(**one) != digest(**other)
+    task = sys.modules[f"package{next(NUMBERS) - 1}.task"]
+    before = code_hash(task.Task, values=True)
+    task.Task().score(object())
+    assert code_hash(task.Task, values=True) == before
