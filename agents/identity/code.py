@@ -2,6 +2,7 @@
 
 import builtins
 import functools
+import gc
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
@@ -241,7 +242,13 @@ def code_hash(*roots: Root, without: Iterable[object] = (), values: bool = False
     """
     modules = (each[0] if isinstance(each, Reference) else each.__module__ for each in roots)
     packages = {COLIFT, *(each.partition(".")[0] for each in modules)}
-    return _code(frozenset(packages)).hash(*roots, without=without, values=values)
+    collects = gc.isenabled()
+    gc.disable()  # Its walks over growing syntax trees take a quarter of the time.
+    try:
+        return _code(frozenset(packages)).hash(*roots, without=without, values=values)
+    finally:
+        if collects:
+            gc.enable()
 
 
 def source_hash(source: bytes) -> str:
