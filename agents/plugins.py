@@ -1,7 +1,8 @@
 """Objects of registered classes: made, checked, and blamed for the errors of their code."""
 
 import dataclasses
-from collections.abc import Iterator
+import functools
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from traceback import walk_tb
 from typing import Any
@@ -11,8 +12,12 @@ from colift.agents.errors import InputError
 from colift.agents.registry import called, lookup
 
 
-def make_registered(group: str, name: str, protocol: type, **arguments: object) -> Any:
-    """Return a new object of the class that is registered under a name.
+def make_registered(
+    group: str, name: str, check: Callable[[object], str | None], **arguments: object
+) -> Any:
+    """Return an object of the class that is registered under a name.
+
+    Without arguments it is the same at every call, checked once.
 
     Parameters
     ----------
@@ -20,27 +25,47 @@ def make_registered(group: str, name: str, protocol: type, **arguments: object) 
         A group of entry points.
     name
         The entry point's name.
-    protocol
-        The methods and attributes that the object must have.
+    check
+        Returns the reason why an object is not what is registered in the group, or None.
     arguments
         Arguments of the class; all its other fields must have defaults.
 
     Raises
     ------
     InputError
-        If the name is unknown, the class cannot be loaded or made, or :func:`class_fault` or
-        :func:`object_fault` finds a fault.
+        If the name is unknown, the class cannot be loaded or made, or :func:`class_fault` or the
+        check finds a fault.
     """
     kind, title = lookup(group, name), called(group, name)
-    fault = class_fault(kind) or _undefined(kind, arguments)
+    again = isinstance(kind, type) and not arguments
+    return (_made if again else _make)(kind, title, check, **arguments)
+
+
+def _make(
+    kind: type, title: str, check: Callable[[object], str | None], **arguments: object
+) -> Any:
+    fault = class_fault(kind)
     if fault is not None:
         raise InputError(f"{title} {fault}")
+    missing = [
+        each.name
+        for each in dataclasses.fields(kind)
+        if each.init
+        and each.name not in arguments
+        and each.default is dataclasses.MISSING
+        and each.default_factory is dataclasses.MISSING
+    ]
+    if missing:
+        raise InputError(f"{title} must have a default for each field: {', '.join(missing)}")
     with blaming(title, kind):
         made = kind(**arguments)
-    fault = object_fault(made, protocol)
+        fault = check(made)
     if fault is not None:
         raise InputError(f"{title} {fault}")
     return made
+
+
+_made = functools.cache(_make)
 
 
 @contextmanager
@@ -72,23 +97,21 @@ def class_fault(kind: Any) -> str | None:
 
     It must be a frozen dataclass; a subclass of one needs no decorator if it only changes methods.
     """
-    if not isinstance(kind, type):
-        return f"must be a class, got {article(kind)}"
+    return _kind_fault(kind) if isinstance(kind, type) else f"must be a class, got {article(kind)}"
+
+
+@functools.cache
+def _kind_fault(kind: type) -> str | None:
     parameters = getattr(kind, "__dataclass_params__", None)
-    if parameters is None or not parameters.frozen or _has_own_state(kind):
-        return "must itself be a frozen dataclass: its fields are in the digest of suites"
-    return None
-
-
-def _has_own_state(kind: type) -> bool:
-    """Return whether a class adds state outside its fields, since the decorator is missing."""
     own = vars(kind)
-    if "__dataclass_params__" in own:
-        return False
     fields = [
         each for each in own.get("__annotations__", {}).values() if "ClassVar" not in str(each)
     ]
-    return bool(fields) or "__init__" in own
+    # Without a decorator of its own, its fields are none of the dataclass.
+    own_state = "__dataclass_params__" not in own and (fields or "__init__" in own)
+    if parameters is None or not parameters.frozen or own_state:
+        return "must itself be a frozen dataclass: its fields are in the digest of suites"
+    return None
 
 
 def object_fault(made: Any, protocol: type) -> str | None:
@@ -169,16 +192,3 @@ def is_ours(source: Any) -> bool:
 
 def _package(module: object) -> str:
     return str(module).partition(".")[0]
-
-
-def _undefined(kind: type, arguments: dict[str, object]) -> str | None:
-    """Return which fields of a dataclass have neither a default nor an argument, or None."""
-    missing = [
-        each.name
-        for each in dataclasses.fields(kind)
-        if each.init
-        and each.name not in arguments
-        and each.default is dataclasses.MISSING
-        and each.default_factory is dataclasses.MISSING
-    ]
-    return f"must have a default for each field: {', '.join(missing)}" if missing else None

@@ -1,68 +1,63 @@
 """Hashes of code: the behaviour of definitions and of all that they use, whatever the names."""
 
-import ast
 import builtins
 import functools
 import gc
 import hashlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
-from pathlib import Path
-from types import ModuleType
+from contextlib import suppress
+from importlib import import_module
 from typing import Any, Final
 
-from colift.agents.identity.encoding import Piece, encoded
-from colift.agents.identity.modules import EFFECTS, Module, Reference, Target, read_module
-
-DIGITS: Final = 16
-"""Hexadecimal digits of a hash."""
+from colift.agents.identity.data import data_hash
+from colift.agents.identity.modules import EFFECTS, Module, Reference, read_module
+from colift.agents.identity.statements import Statement, Target, Use
+from colift.agents.identity.values import value_text
 
 WHOLE: Final = "*"
 """The name under which a module itself is referred to."""
 
-ROUNDS: Final = 4
-"""Rounds in which a module's definitions are distinguished by those they use, to order them."""
-
 COLIFT: Final = __name__.partition(".")[0]
 
-Root = type | Callable[..., Any] | ModuleType | tuple[ModuleType, str]
-"""A class, a function, all that a module defines, or a module and the name of a constant in it."""
+FINDERS: Final = {
+    *(f"<builtins.__{name}__>" for name in ("file", "path", "spec", "loader")),
+    *(f"<importlib.resources.{name}>" for name in ("files", "open_binary", "open_text", "path")),
+    *("<importlib.resources.read_binary>", "<importlib.resources.read_text>", "<pkgutil.get_data>"),
+}
+"""How code finds the files beside it."""
+
+Root = type | Callable[..., Any] | Reference
+"""A class, a function, or the module and the name of a definition."""
+
+Piece = str | Reference
 
 
 class Code:
     """The sources of some packages, as a graph of definitions that use each other.
 
-    Only definitions that are reached are read.
+    Only modules with definitions that are reached are read.
 
     Parameters
     ----------
     packages
         Names of the packages, or of modules outside any package; definitions of others enter by
         their names.
-    changed
-        Sources to take instead of files, by the full names of their modules.
+    modules
+        Modules to take instead of those of these names.
     """
 
     def __init__(
-        self, packages: Iterable[str] = (COLIFT,), changed: Mapping[str, str | bytes] | None = None
+        self, packages: Iterable[str] = (COLIFT,), modules: Mapping[str, Module] | None = None
     ) -> None:
         self._packages = frozenset(packages)
-        self._modules: dict[str, Module | None] = {}
-        self._encoded: dict[Reference, tuple[Piece, ...]] = {}
-        for name, text in (changed or {}).items():
-            self._modules[name] = self._replaced(name, ast.parse(text))
+        self.modules: dict[str, Module | None] = {**(modules or {})}
+        self._found: dict[Target, Piece] = {}
+        self._pieces: dict[Reference, list[Piece]] = {}
+        self._valued: set[Reference] = set()
+        """Definitions whose values count, as they are when a hash is asked for."""
+        self._walks: dict[tuple[object, object], tuple[str, list[Reference]]] = {}
 
-    def with_tree(self, name: str, tree: ast.Module) -> "Code":
-        """Return the same with another source of a module that defines and imports the same names.
-
-        All other modules are shared, which makes this cheap.
-        """
-        other = Code(self._packages)
-        other._modules = {**self._modules, name: self._replaced(name, tree)}
-        other._encoded = {ref: each for ref, each in self._encoded.items() if ref.module != name}
-        return other
-
-    def hash(self, *roots: Root, without: Iterable[Root] = ()) -> str:
+    def hash(self, *roots: Root, without: Iterable[object] = (), values: bool = False) -> str:
         """Return the hash of the roots' behaviour, with all that they use, directly or not.
 
         Definitions are numbered as they are reached. So the hash stays the same when something is
@@ -75,173 +70,164 @@ class Code:
             Definitions to begin with; their order counts. One whose source is not known enters by
             its name.
         without
-            Definitions that are not followed, since their values are stated elsewhere. One
-            definition may occur under several names.
+            Values of definitions that are not followed, since they are stated elsewhere.
+        values
+            Whether constants and attributes of classes count as they are now, too. All modules
+            with definitions that are reached must have been imported.
         """
-        return self._hash([self._root(root) for root in roots], without)[0]
+        key = roots, tuple(map(id, without))
+        if key not in self._walks:
+            self._walks[key] = self._walk(roots, without)
+        text, used = self._walks[key]
+        valued = [each for each in used if values and each in self._valued]
+        texts = [text, *(value_text(each.value()) for each in valued)]
+        return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
-    def definitions(self, *roots: Root, without: Iterable[Root] = ()) -> tuple[Reference, ...]:
+    def definitions(self, *roots: Root, without: Iterable[object] = ()) -> list[Reference]:
         """Return every definition that the roots use, themselves among them."""
-        return self._hash([self._root(root) for root in roots], without)[1]
+        return self._walk(roots, without)[1]
 
-    def module_hash(self, name: str) -> str:
-        """Return the hash of all that a module defines, in any order, and of all that this uses.
+    def module(self, name: str) -> Module | None:
+        """Return a module of the packages; None if no source of that name is known."""
+        if name not in self.modules:
+            top = name.partition(".")[0]
+            if top in self._packages - {COLIFT}:
+                with suppress(Exception):  # As a lift would; a module may raise anything.
+                    import_module(name)
+            self.modules[name] = read_module(name) if top in self._packages else None
+        return self.modules[name]
 
-        Raises
-        ------
-        LookupError
-            If there is no source of that name.
-        """
-        if self._module(name) is None:
-            raise LookupError(f"no source of {name}")
-        return self._hash([Reference(name, WHOLE)])[0]
-
-    def _root(self, root: Root) -> Piece:
-        if isinstance(root, ModuleType):
-            return self._resolved(Target(root.__name__, None))
-        if isinstance(root, tuple):
-            return self._resolved(Target(root[0].__name__, root[1]))
-        return self._resolved(Target(root.__module__, root.__qualname__.partition(".")[0]))
-
-    def _hash(
-        self, roots: Iterable[Piece], without: Iterable[Root] = ()
-    ) -> tuple[str, tuple[Reference, ...]]:
-        stated = {piece: i for i, piece in enumerate(dict.fromkeys(map(self._root, without)))}
-        numbers: dict[Reference, int] = {}
+    def _walk(
+        self, roots: Iterable[Root], without: Iterable[object]
+    ) -> tuple[str, list[Reference]]:
+        stated = {id(value): f"(stated {i})" for i, value in enumerate(without)}
+        numbers: dict[Reference, str] = {}
         queue: list[Reference] = []
+        texts: list[str] = []
 
-        def numbered(piece: Piece) -> str:
-            if isinstance(piece, str):
-                return piece
-            if piece in stated:
-                return f"(stated {stated[piece]})"
-            if piece not in numbers:
-                numbers[piece] = len(numbers)
-                queue.append(piece)
-            return f"(definition {numbers[piece]})"
+        def enter(pieces: Iterable[Piece]) -> None:
+            for piece in pieces:
+                if isinstance(piece, str):
+                    texts.append(piece)
+                    continue
+                if piece not in numbers:
+                    elsewhere = stated.get(id(piece.value()))
+                    numbers[piece] = elsewhere or f"(definition {len(queue)})"
+                    queue.extend([] if elsewhere else [piece])
+                texts.append(numbers[piece])
 
-        texts = ["".join(numbered(root) for root in roots)]
-        for reference in queue:  # It grows meanwhile.
-            pieces = self._pieces(reference)
-            if reference.name not in (EFFECTS, WHOLE):
-                pieces = (*pieces, *self._effects(reference.module))
-            texts.append("".join(numbered(piece) for piece in pieces))
-        return _short("\n".join(texts)), tuple(queue)
+        for root in roots:
+            if not isinstance(root, Reference):
+                root = Reference(root.__module__, root.__qualname__.partition(".")[0])
+            enter([self._resolved(Target(*root))])
+        for i, reference in enumerate(queue):  # It grows meanwhile.
+            texts.append("(next)")
+            enter(self._read(reference))
+            if i + 1 == len(queue):
+                for each in dict.fromkeys(each.module for each in queue):
+                    enter(self._effects(each))
+        return "\n".join(texts), queue
 
-    def _pieces(self, reference: Reference) -> tuple[Piece, ...]:
-        if reference not in self._encoded:
-            module = self._module(reference.module)
-            assert module is not None, reference
-            if reference.name == WHOLE:
-                each = [Reference(module.name, name) for name in module.definitions]
-                self._encoded[reference] = tuple(self._sorted(each))
-            else:
-                definition = module.definitions[reference.name]
-                self._encoded[reference] = encoded(definition, module, self._resolved, self._folder)
-        return self._encoded[reference]
+    def _read(self, reference: Reference) -> list[Piece]:
+        """Return a definition as texts and references to other definitions."""
+        if reference in self._pieces:
+            return self._pieces[reference]
+        module = self.module(reference.module)
+        assert module is not None, reference
+        pieces = self._pieces[reference] = []
+        if reference.name == WHOLE:
+            pieces += [Reference(module.name, name) for name in sorted(module.definitions)]
+            return pieces
+        statements = module.definitions[reference.name]
+        for statement in statements:
+            pieces.append("(statement)")
+            for each in statement.pieces:
+                if isinstance(each, str):
+                    pieces.append(each)
+                elif isinstance(each, Use):
+                    pieces += self._meaning(each, statement, module, reference.name)
+                else:
+                    pieces.append(self._resolved(each))
+        own = module.top == COLIFT
+        if not FINDERS.isdisjoint(pieces):
+            pieces.append(data_hash(module, statements, everything=not own))
+        # What our own calls return, such as a file's number, may differ between processes.
+        of_call = own and "Call" in {str(each)[:4] for each in pieces}
+        if reference.name not in module.rebound and (
+            not of_call or isinstance(reference.value(), type)
+        ):
+            self._valued.add(reference)
+        return pieces
 
-    def _sorted(self, references: Iterable[Reference]) -> list[Reference]:
-        """Return definitions in an order that does not depend on their names and places."""
-        signatures = dict.fromkeys(references, "")
-        for _ in range(ROUNDS):
-            signatures = {
-                each: _short(
-                    "".join(
-                        piece if isinstance(piece, str) else signatures.get(piece, "(definition)")
-                        for piece in self._pieces(each)
-                    )
-                )
-                for each in signatures
-            }
-        return sorted(signatures, key=lambda each: signatures[each])
+    def _meaning(self, use: Use, statement: Statement, module: Module, of: str) -> list[Piece]:
+        """Return what a name stands for in a definition: several things if that is not certain."""
+        region, name = use.region, use.name
+        if region is statement.top and use.stored and of != EFFECTS:
+            return ["(this)" if name == of else f"(bound {region.numbers[name]})"]
+        pieces: list[Piece] = []
+        if region is not statement.top and name in region.stored:
+            pieces = [f"(local {region.numbers[name]})", use.attributes]
+        if use.stored and region.kind == "class":
+            return pieces
+        for target in region.imports.get(name, ()):
+            pieces += self._dotted(target, use.attributes)
+        known = name in module.definitions or name in module.imports
+        if not pieces or (known and name in statement.outer):
+            pieces += self._dotted(Target(module.name, name), use.attributes)
+        return pieces
 
-    def _effects(self, name: str) -> Iterator[Reference]:
-        """Yield the loose statements that importing a module runs: its packages', then its own.
-
-        Those of colift's top package are left out: they enter its environments into Gymnasium's
-        registry, which changes no score.
-        """
-        parts = name.split(".")
-        for i in range(1, len(parts) + 1):
-            module = self._module(".".join(parts[:i]))
-            if module is not None and module.name != COLIFT and EFFECTS in module.definitions:
-                yield Reference(module.name, EFFECTS)
+    def _dotted(self, target: Target, attributes: str) -> list[Piece]:
+        """Return the definition that ``target.name.name`` stands for, and the attributes left."""
+        found = self._resolved(target)
+        while attributes and isinstance(found, Reference) and found.name == WHOLE:
+            name, _, attributes = attributes.partition(".")
+            found = self._resolved(Target(found.module, name))
+        if isinstance(found, str):
+            # Makes ``np.pi`` and ``from numpy import pi`` equal.
+            return [f"{found[:-1]}.{attributes}>" if attributes else found]
+        return [found, attributes]
 
     def _resolved(self, target: Target) -> Piece:
+        if target not in self._found:
+            self._found[target] = "<circular import>"
+            self._found[target] = self._find(*target)
+        return self._found[target]
+
+    def _find(self, place: str, name: str | None) -> Piece:
         """Return the definition that a name in a module stands for, or a text."""
-        seen: set[Target] = set()
-        while target not in seen:
-            seen.add(target)
-            name = target.name
-            module = self._module(target.module)
-            if module is not None and name is None:
-                return Reference(target.module, WHOLE)
-            if module is not None and name in module.definitions:
-                return Reference(target.module, name)
-            if module is not None and name in module.imports:
-                target = module.imports[name]
-            elif name and self._module(f"{target.module}.{name}") is not None:
-                target = Target(f"{target.module}.{name}", None)
-            elif module is None or name is None:
-                return f"<{target.module}>" if name is None else f"<{target.module}.{name}>"
-            else:
-                return self._unbound(module, name)
-        return f"<{target.module}.{target.name}>"
+        module = self.module(place)
+        if name is None:
+            return Reference(place, WHOLE) if module else f"<{place}>"
+        if module and name in module.definitions:
+            return Reference(place, name)
+        if module and name in module.imports:
+            return self._resolved(module.imports[name])
+        if (not module or module.package == place) and self.module(f"{place}.{name}"):
+            return Reference(f"{place}.{name}", WHOLE)
+        if module and "*" in module.imports and not hasattr(builtins, name):
+            return self._resolved(Target(module.imports["*"].module, name))
+        if module and "__getattr__" in module.definitions and not name.startswith("__"):
+            return Reference(place, "__getattr__")
+        return f"<{'builtins' if module else place}.{name}>"
 
-    def _unbound(self, module: Module, name: str) -> Piece:
-        """Return the meaning of a name that a module does not bind visibly."""
-        for star in module.stars:
-            source = self._module(star)
-            if source is None:
-                if not hasattr(builtins, name):
-                    return f"<{star}.{name}>"
-            elif name in source.definitions or name in source.imports:
-                return self._resolved(Target(star, name))
-        if "__getattr__" in module.definitions and not name.startswith("__"):
-            return Reference(module.name, "__getattr__")
-        return f"<builtins.{name}>"
+    def _effects(self, name: str) -> Iterator[Reference]:
+        """Yield the loose statements that importing a module runs.
 
-    def _module(self, name: str) -> Module | None:
-        if name not in self._modules:
-            ours = name.partition(".")[0] in self._packages
-            self._modules[name] = read_module(name) if ours else None
-        return self._modules[name]
-
-    def _folder(self, name: str) -> Path | None:
-        """Return the folder of a module of colift; None for others, which lie among any files."""
-        module = self._module(name) if name.partition(".")[0] == COLIFT else None
-        return None if module is None else module.folder
-
-    def _replaced(self, name: str, tree: ast.Module) -> Module:
-        package = name.rpartition(".")[0]
-        there = self._modules.get(name) or read_module(name)
-        beside = there or (read_module(package) if package else None)
-        folder = None if beside is None else beside.folder
-        return there.with_tree(tree) if there else Module(name, tree, package, folder)
-
-
-@functools.cache
-def code_hash(*roots: Root, without: tuple[Root, ...] = ()) -> str:
-    """Return the hash of the behaviour of functions, classes and constants; see :meth:`Code.hash`.
-
-    It covers colift and the packages of the roots.
-    """
-    names = {each.__name__ if isinstance(each, ModuleType) else _home(each) for each in roots}
-    packages = {COLIFT, *(name.partition(".")[0] for name in names)}
-    with _no_collection():
-        return _code(frozenset(packages)).hash(*roots, without=without)
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """Suspend the garbage collector: walking over growing syntax trees takes half of the time."""
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
+        They are those of its packages and its own; in other packages than colift also those of the
+        modules that it imports. Those of colift's top package are left out: they enter its
+        environments into Gymnasium's registry, which changes no score.
+        """
+        queue = [name]
+        for each in queue:  # It grows meanwhile.
+            module = self.module(each)
+            if module is None or each == COLIFT:
+                continue
+            if EFFECTS in module.definitions:
+                yield Reference(each, EFFECTS)
+            used = () if module.top == COLIFT else module.imports.values()
+            others = [each.rpartition(".")[0], *(t.module for t in used)]
+            others += [f"{t.module}.{t.name}" for t in used]
+            queue += [other for other in others if other not in queue]
 
 
 @functools.cache
@@ -249,22 +235,32 @@ def _code(packages: frozenset[str]) -> Code:
     return Code(packages)
 
 
-def _home(root: Root) -> str:
-    return root[0].__name__ if isinstance(root, tuple) else str(root.__module__)
+def code_hash(*roots: Root, without: Iterable[object] = (), values: bool = False) -> str:
+    """Return the hash of the behaviour of functions and classes; see :meth:`Code.hash`.
+
+    It covers colift and the packages of the roots.
+    """
+    modules = (each[0] if isinstance(each, Reference) else each.__module__ for each in roots)
+    packages = {COLIFT, *(each.partition(".")[0] for each in modules)}
+    collects = gc.isenabled()
+    gc.disable()  # Its walks over growing syntax trees take a quarter of the time.
+    try:
+        return _code(frozenset(packages)).hash(*roots, without=without, values=values)
+    finally:
+        if collects:
+            gc.enable()
 
 
 def source_hash(source: bytes) -> str:
     """Return the hash of a source file's behaviour, and of all that it uses of colift.
 
-    All its definitions count; imports from elsewhere enter by their names. A file that is not
-    valid Python is hashed byte by byte.
+    All its definitions count, in any order; imports from elsewhere enter by their names. A file
+    that is not valid Python is hashed byte by byte.
     """
-    name = "a source by itself"
     try:
-        return Code((COLIFT,), {name: source}).module_hash(name)
+        module = Module("a source by itself", source, "")
+        code = Code((COLIFT,), {module.name: module})
+        every = (Reference(module.name, each) for each in module.definitions)
+        return code.hash(*sorted(every, key=code.hash))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return hashlib.sha256(source).hexdigest()[:DIGITS]
-
-
-def _short(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:DIGITS]
+        return hashlib.sha256(source).hexdigest()[:16]

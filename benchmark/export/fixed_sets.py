@@ -13,7 +13,7 @@ from colift.agents.errors import InputError
 from colift.agents.humans import Recorded, Recording, load_recordings
 from colift.agents.threads import one_thread
 from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.identity import plain, scores_hash
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.export.lifts import ExportedLift
 from colift.benchmark.export.observing import ObservedLift
@@ -113,7 +113,7 @@ def set_digest(plan: list[SetLift]) -> str:
     It is made like that of a suite, from engine, people, plans and seeds.
     """
     sha = hashlib.sha256()
-    heads = {"numbers": plain(numbers()), "code": scores_hash()}
+    heads = {"code": scores_hash()}
     lifts = ({"scenario": plain(lift.scenario), "seed": lift.seed} for lift in plan)
     for part in (heads, *lifts):
         sha.update(json.dumps(part, sort_keys=True, separators=(",", ":")).encode() + b"\n")

@@ -14,7 +14,7 @@ from colift.agents.humans import (
 from colift.agents.near_names import did_you_mean
 from colift.agents.plugins import make_registered
 from colift.agents.registry import HUMANS, TASKS, called, entries
-from colift.benchmark.episode.conformance import task_fault
+from colift.benchmark.episode.conformance import behaviour_fault, task_fault
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.task import Task
@@ -52,11 +52,9 @@ def make_task(name: str) -> Task:
     InputError
         If the name is unknown, or there is no task of that name in its package.
     """
-    task: Task = make_registered(TASKS, name, Task)
-    fault = task_fault(task)
-    if fault is None and task.name != name:
+    task: Task = make_registered(TASKS, name, task_fault)
+    if task.name != name:
         fault = f"has the name {task.name!r}; it must have its entry point's name"
-    if fault is not None:
         raise InputError(f"{called(TASKS, name)} {fault}")
     return task
 
@@ -109,7 +107,7 @@ def make_scenario(
         )
     recording = _recording(source) if kind == RECORDED else None
     given = {} if recording is None else {"recording": recording}
-    human: Behaviour = make_registered(HUMANS, kind, Behaviour, **given)
+    human: Behaviour = make_registered(HUMANS, kind, behaviour_fault, **given)
     return Scenario(
         behaviour=kind,
         human=human,

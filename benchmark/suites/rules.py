@@ -20,13 +20,16 @@ def scenarios_fault(scenarios: Sequence[object]) -> str | None:
     for each in scenarios:
         if not isinstance(each, Scenario):
             return f"must have scenarios, got {article(each)}"
+    known = [each for each in scenarios if isinstance(each, Scenario)]
+    # Most share their task, and many their behaviour.
+    for each in {id(each.human): each for each in known}.values():
         fault = behaviour_fault(each.human)
         if fault is not None:
             return f"has the behaviour {each.behaviour!r} ({place_of(each.human)}), which {fault}"
-        fault = task_fault(each.task)
+    for task in {id(each.task): each.task for each in known}.values():
+        fault = task_fault(task)
         if fault is not None:
-            return f"has a task ({place_of(each.task)}) that {fault}"
-    known = [each for each in scenarios if isinstance(each, Scenario)]
+            return f"has a task ({place_of(task)}) that {fault}"
     tasks = list(dict.fromkeys(each.task for each in known))
     if len(tasks) > 1:
         names = [task.name for task in tasks]

@@ -13,7 +13,7 @@ from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS, Recorded, load_recordings
 from colift.agents.plugins import article, blaming
 from colift.agents.registry import SUITES, called, lookup
-from colift.benchmark.episode.identity import numbers, plain, scores_hash
+from colift.benchmark.episode.identity import plain, scores_hash
 from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
@@ -62,12 +62,11 @@ class Suite:
     def digest(self) -> str:
         """SHA-256 (16 hexadecimal digits) over everything that changes a number.
 
-        It covers the scenarios with all parameters of behaviour and subject, the seeds, the
-        declared :func:`.numbers`, and the code that plays and scores, without names and words.
+        It covers the scenarios with all parameters of behaviour and subject, the seeds, and the
+        code that plays and scores with all its numbers, without names and words.
         Results with different digests never share a table.
         """
         content = {
-            "numbers": plain(numbers()),
             "code": scores_hash(),
             "scenarios": [plain(scenario) for scenario in self.scenarios],
             "seeds": self.seeds,

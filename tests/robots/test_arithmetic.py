@@ -8,7 +8,7 @@ import colift.robots
 import numpy as np
 import pytest
 from colift.agents.identity.code import Code
-from colift.benchmark.episode.identity import PLANS, PLAYS_AND_SCORES
+from colift.benchmark.episode.identity import PLAYS_AND_SCORES
 from colift.robots.arithmetic import dot, each, matmul
 
 ROOT = Path(colift.robots.__file__).parents[1]
@@ -48,7 +48,7 @@ def test_a_function_is_that_of_each_number():
 
 
 def sources():
-    modules = {each.module for each in Code().definitions(*PLANS, *PLAYS_AND_SCORES)}
+    modules = {each.module for each in Code().definitions(*PLAYS_AND_SCORES)}
     simulating = {
         Path(*name.split(".")[1:]).with_suffix(".py") for name in modules if name != "colift"
     }

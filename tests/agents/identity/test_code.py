@@ -1,9 +1,7 @@
 """The hash of code: what leaves it as it is, and what changes it."""
 
-import types
-
 import pytest
-from colift.agents.identity import Code, source_hash
+from colift.agents.identity import Code, Module, Reference, source_hash
 
 BEFORE = {
     "p.a": '''
@@ -118,8 +116,10 @@ class TooSmall(Exception): pass
 
 
 def digest(sources, module="p.a", name="area"):
-    code = Code({"p"}, sources)
-    return code.hash((types.ModuleType(module), name))
+    modules = {
+        each: Module(each, text, each.rpartition(".")[0] or each) for each, text in sources.items()
+    }
+    return Code({"p"}, modules).hash(Reference(module, name))
 
 
 def test_names_places_words_and_what_is_unused_change_nothing():
@@ -194,7 +194,8 @@ def test_classes_that_look_alike_are_told_apart():
         ("def f(): return [j for j in range(k)]", True),
         ("def f():\n    for k in 'ab': print(k)", False),
         ("class f:\n    k = 1\n    def g(self): return k", True),
-        ("class f:\n    k = 1\n    j = k", False),
+        ("class f:\n    k = 1", False),
+        ("class f:\n    k = k", True),
         ("def f():\n    global k\n    k += 1", True),
         (
             "def f():\n    k = 0\n    def g():\n        nonlocal k\n        k += 1\n    return g",

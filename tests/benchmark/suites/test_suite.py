@@ -10,6 +10,7 @@ from colift.agents.humans import Smooth
 from colift.agents.registry import SUITES, own_entries
 from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import metric_table
+from colift.benchmark.suites import rules
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite, recorded_suite
 from colift.benchmark.world import table
@@ -103,6 +104,18 @@ def test_a_digest_changes_with_the_constants_of_the_world(monkeypatch):
     before = make_suite("quick-v1").digest
     monkeypatch.setattr(table, "TABLE_MASS", 0.36)
     assert make_suite("quick-v1").digest != before
+
+
+def test_what_is_registered_is_made_and_checked_once(monkeypatch):
+    checked = []
+    for name in ("behaviour_fault", "task_fault"):
+        fault = getattr(rules, name)
+        note = lambda made, fault=fault: checked.append(made) or fault(made)  # noqa: E731
+        monkeypatch.setattr(rules, name, note)
+    suite = make_suite("standard-v1")
+    assert len({id(each.task) for each in suite.scenarios}) == 1
+    assert len({id(each.human) for each in suite.scenarios}) == len(checked) - 1 == 4
+    assert suite.scenarios[0].human is make_scenario(suite.scenarios[0].behaviour).human
 
 
 @pytest.mark.parametrize("task", [Level(), Measured()], ids=["level", "of another package"])
