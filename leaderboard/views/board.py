@@ -185,8 +185,8 @@ def _bound(bound: PublicBound, part: Part | None) -> Reference:
     tables = bound.scores, bound.human_human
     if part is None:
         mine, people = tables
-        ratio = mine.mean / people.mean
-        return {"bound": bound, "rmse_mm": mine.error, "ratio": ratio, "means": bound.means}
+        whole = mine.mean / people.mean
+        return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
     mine, people = (each.part(part.behaviour, part.subject) for each in tables)
     rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
     means = dict.fromkeys(bound.means)

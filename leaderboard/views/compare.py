@@ -18,7 +18,6 @@ from colift.leaderboard.views.asked import CHOSEN, ROWS
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
     Part,
-    PublicLift,
     part_estimate,
     parts_of,
     public_lifts,
