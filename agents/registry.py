@@ -1,9 +1,9 @@
-"""Policies, human behaviours, suites and tasks by name.
+"""Policies, human behaviours, suites, tasks and robots by name.
 
 All of them, colift's own and those of other packages, are entry points:
-``name = "module:Class"`` in the group ``colift.policies``, ``colift.humans`` or ``colift.tasks``,
-or ``name = "module:function"`` in ``colift.suites``. A policy for one task alone is in the group
-``colift.policies.TASK``. Colift's own are in pyproject.toml.
+``name = "module:Class"`` in the group ``colift.policies``, ``colift.humans``, ``colift.tasks`` or
+``colift.robots``, or ``name = "module:function"`` in ``colift.suites``. A policy for one task alone
+is in the group ``colift.policies.TASK``. Colift's own are in pyproject.toml.
 """
 
 import functools
@@ -18,11 +18,18 @@ POLICIES: Final = "colift.policies"
 HUMANS: Final = "colift.humans"
 SUITES: Final = "colift.suites"
 TASKS: Final = "colift.tasks"
+ROBOTS: Final = "colift.robots"
 
 FEW: Final = 8
 """Number of names that an error lists; of more, it names only those that are near."""
 
-_KIND: Final = {POLICIES: "policy", HUMANS: "human behaviour", SUITES: "suite", TASKS: "task"}
+_KIND: Final = {
+    POLICIES: "policy",
+    HUMANS: "human behaviour",
+    SUITES: "suite",
+    TASKS: "task",
+    ROBOTS: "robot",
+}
 
 
 @functools.cache

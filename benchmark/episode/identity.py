@@ -11,7 +11,7 @@ from colift.agents.agent import RobotObservation
 from colift.agents.calibration import CALIBRATION
 from colift.agents.humans import Partner
 from colift.agents.identity import Root, code_hash
-from colift.agents.registry import HUMANS, TASKS, lookup, own_entries
+from colift.agents.registry import HUMANS, ROBOTS, TASKS, lookup, own_entries
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.kept_world import lift_in_kept_world
 from colift.benchmark.episode.level_metrics import LEVEL_METRICS
@@ -34,9 +34,11 @@ their limits are stated with their task."""
 @functools.cache
 def simulation_hash() -> str:
     """Return the hash of the code that simulates, with all tasks and behaviours of colift."""
-    tasks, humans = ([lookup(each, name) for name in own_entries(each)] for each in (TASKS, HUMANS))
+    tasks, humans, robots = (
+        [lookup(each, name) for name in own_entries(each)] for each in (TASKS, HUMANS, ROBOTS)
+    )
     stated = (*STATED, *(task.metrics for task in tasks))
-    return code_hash(*SIMULATES, *tasks, *humans, without=stated, values=True)
+    return code_hash(*SIMULATES, *tasks, *humans, *robots, without=stated, values=True)
 
 
 def scores_hash() -> str:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Final, Protocol
 
 import numpy as np
-from colift.agents.actions import action_limit, checked_action
+from colift.agents.actions import checked_action
 from colift.agents.agent import FRAME, HISTORY, Action, Agent, HumanObservation, Observation
 from colift.agents.humans import Embodied, Plan, Subject
 from colift.agents.humans.hand import HandMemory, NoiseStream, carry_out
@@ -54,7 +54,8 @@ class Lift:
         self.seat = seat = scenario.seat
         self.frames_per_step = scenario.frames_per_step
         self.partner_size = seat.action_size(self.frames_per_step)
-        self.step_limit = action_limit(scenario.control_period)
+        self.step_limit = seat.action_range(scenario.control_period)[1]
+        """Largest change of a robot's hand command in one step [m]."""
         self.latency = scenario.latency_frames
         self.visual, self.haptic = _delays(scenario.subject)
         far = (0, 0) if seat.person is None else _delays(seat.person)
@@ -258,7 +259,7 @@ class Lift:
 
     def clipped(self, actions: NDArray[np.float64]) -> float:
         """Return the share of actions beyond the hands' speed; NaN for a second human."""
-        return self.seat.clipped(actions, self.step_limit)
+        return self.seat.clipped(actions, self.scenario.control_period)
 
     def _senses(
         self,

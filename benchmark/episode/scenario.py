@@ -7,7 +7,7 @@ from colift.agents.agent import FRAME
 from colift.agents.errors import InputError
 from colift.agents.humans import Behaviour, Subject
 from colift.benchmark.episode.level import LEVEL
-from colift.benchmark.episode.seat import SEATS, Seat
+from colift.benchmark.episode.seat import Seat, make_seat
 from colift.benchmark.episode.task import Task
 
 CONTROL_PERIOD: Final = 0.1
@@ -40,7 +40,7 @@ class Scenario:
     subject: Subject
     """The human."""
     partner: str = "nao"
-    """Holder of the robot's end: a name of :data:`.SEATS`."""
+    """Holder of the robot's end: a robot, or a person of :data:`.HUMANS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY
@@ -50,16 +50,14 @@ class Scenario:
 
     def __post_init__(self) -> None:
         """Check the times."""
-        if self.partner not in SEATS:
-            known = " or ".join(map(repr, SEATS))
-            raise InputError(f"partner must be {known}, got {self.partner!r}")
+        make_seat(self.partner)  # Refuses an unknown name.
         _check_time("control_period", self.control_period, FRAME, LONGEST_PERIOD)
         _check_time("latency", self.latency, 0.0, LONGEST_LATENCY)
 
     @property
     def seat(self) -> Seat:
         """The holder of the robot's end."""
-        return SEATS[self.partner]
+        return make_seat(self.partner)
 
     @property
     def frames_per_step(self) -> int:

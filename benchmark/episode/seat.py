@@ -1,18 +1,20 @@
-"""The seat at the robot's end: taken by a NAO or by a second human."""
+"""The seat at the robot's end: taken by a robot or by a second human."""
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import ClassVar, Final, Protocol
 
 import numpy as np
-from colift.agents.actions import action_limit
-from colift.agents.agent import Observation
+from colift.agents.agent import FRAME, Observation
+from colift.agents.errors import InputError
 from colift.agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
+from colift.agents.registry import UnknownNameError
 from colift.agents.rules import SCALARS, ArrayFunctions, N
 from colift.benchmark.episode.task import Playing, Task
-from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd, NaoFarEnd
-from colift.robots.nao.kinematics import STROKE
+from colift.benchmark.robots.robot import Robot, make_robot, robot_names
+from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd
 from numpy.typing import ArrayLike, NDArray
 
 REFERENCE_RANGE: Final = (-0.2, 0.5)
@@ -40,7 +42,9 @@ def within_range(references: Sequence[float]) -> Sequence[float]:
     return references
 
 
-def limited_command(f: ArrayFunctions[N], command: N, change: N, limit: float) -> N:
+def limited_command(
+    f: ArrayFunctions[N], command: N, change: N, limit: float, stroke: tuple[float, float]
+) -> N:
     """Return the hand command [m] after a step: clipped to the hands' speed, then to their stroke.
 
     Parameters
@@ -50,27 +54,11 @@ def limited_command(f: ArrayFunctions[N], command: N, change: N, limit: float) -
     change
         The action, a change of the command [m].
     limit
-        The largest change in one step [m]; see :func:`action_limit`.
+        The largest change in one step [m].
+    stroke
+        Lowest and highest command [m].
     """
-    return f.clip(command + f.clip(change, -limit, limit), *STROKE)
-
-
-def hand_commands(actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
-    """Return the hand command at the end of each step [m], shape (m,).
-
-    Parameters
-    ----------
-    actions
-        Changes of the command [m] as the policy gave them, shape (m, 1); they are clipped to the
-        hand's speed and stroke, as in the episode.
-    control_period
-        Time of a step [s].
-    """
-    limit, command, found = action_limit(control_period), 0.0, []
-    for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
-        command = limited_command(SCALARS, command, change, limit)
-        found.append(command)
-    return np.array(found)
+    return f.clip(command + f.clip(change, -limit, limit), *stroke)
 
 
 class Seat(Protocol):
@@ -101,42 +89,71 @@ class Seat(Protocol):
     def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return the height to reach at the end of each frame of the step [m]."""
 
+    def reached(self, command: float, change: float, control_period: float) -> float:
+        """Return the command after a step by a robot's action, both [m]; a person's is kept."""
+
+    def hand_commands(self, actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+        """Return the height to reach at the end of each step (m,), for m actions as given [m]."""
+
     def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the holder's observation at the beginning of a step."""
 
-    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
-        """Return the share of actions larger than ``limit`` [m]; NaN if none was made or counts."""
+    def clipped(self, actions: NDArray[np.float64], control_period: float) -> float:
+        """Return the share of actions that were too large; NaN if none was made or counts."""
 
 
-class NaoSeat:
-    """A NAO: an action is one number, the change of the hand command over the step [m]."""
+@dataclass(frozen=True, kw_only=True)
+class RobotSeat:
+    """A robot: an action is one number, the change of the hand command over the step [m]."""
 
-    label: Final = "robot"
-    is_robot: Final = True
-    body: Final = NaoFarEnd()
-    person: Final = None
+    body: Robot
+    is_robot: ClassVar[bool] = True
+    person: ClassVar[None] = None
+
+    @property
+    def label(self) -> str:
+        """The robot's name in pictures."""
+        return self.body.label
 
     def action_size(self, frames: int) -> int:
         """Return 1."""
         return 1
 
+    def largest_change(self, control_period: float) -> float:
+        """Return the largest change of the command in one period [m]."""
+        return self.body.hand_speed * control_period
+
     def action_range(self, control_period: float) -> tuple[float, float]:
         """Return the largest change of the command in one period, down and up [m]."""
-        limit = action_limit(control_period)
+        limit = self.largest_change(control_period)
         return -limit, limit
+
+    def reached(self, command: float, change: float, control_period: float) -> float:
+        """Return the command after a step [m], clipped to the hands' speed and stroke."""
+        limit = self.largest_change(control_period)
+        return limited_command(SCALARS, command, change, limit, self.body.stroke)
 
     def commands(self, lift: Playing, action: list[float]) -> Sequence[float]:
         """Return a ramp from the present command, clipped to the hands' speed and stroke."""
         start, size = lift.command, lift.frames_per_step
-        change = limited_command(SCALARS, start, action[0], lift.step_limit) - start
+        change = self.reached(start, action[0], size * FRAME) - start
         return [start + change * (i + 1) / size for i in range(size)]
+
+    def hand_commands(self, actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+        """Return the command at the end of each step [m], clipped as in the episode."""
+        command, found = 0.0, []
+        for change in np.asarray(actions, dtype=np.float64).ravel().tolist():
+            command = self.reached(command, change, control_period)
+            found.append(command)
+        return np.array(found)
 
     def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the task's observation of the robot."""
         return task.robot_observation(lift)
 
-    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
+    def clipped(self, actions: NDArray[np.float64], control_period: float) -> float:
         """Return the share of changes that were faster than the hands."""
+        limit = self.largest_change(control_period)
         return int((np.abs(actions) > limit).sum()) / len(actions) if len(actions) else math.nan
 
 
@@ -165,18 +182,45 @@ class HumanSeat:
         """Return the references, clipped to the range of heights."""
         return within_range(action)
 
+    def reached(self, command: float, change: float, control_period: float) -> float:
+        """Return the command: a person has no changes."""
+        return command
+
+    def hand_commands(self, actions: ArrayLike, control_period: float) -> NDArray[np.float64]:
+        """Return the last reference of each step, clipped to the range of heights [m]."""
+        given = np.asarray(actions, dtype=np.float64)
+        return given.reshape(len(given), -1)[:, -1:].clip(*REFERENCE_RANGE).ravel()
+
     def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the task's observation of a second human."""
         return task.partner_observation(lift)
 
-    def clipped(self, actions: NDArray[np.float64], limit: float) -> float:
+    def clipped(self, actions: NDArray[np.float64], control_period: float) -> float:
         """Return NaN: a person's references have no limit of speed."""
         return math.nan
 
 
-SEATS: Final[Mapping[str, Seat]] = {
-    "nao": NaoSeat(),
+HUMANS: Final[Mapping[str, HumanSeat]] = {
     "human": HumanSeat(person=PARTNER_SUBJECT),
     "live": HumanSeat(person=LIVE_SUBJECT),
 }
-"""The holders of the robot's end by name: a NAO, the simulated second human, and a real one."""
+"""The people at the robot's end by name: the simulated second human, and a real one."""
+
+
+@cache
+def make_seat(name: str) -> Seat:
+    """Return the holder of the robot's end: a person of :data:`HUMANS`, or a registered robot.
+
+    Raises
+    ------
+    InputError
+        If there is no such person or robot, or the robot cannot be used.
+    """
+    person = HUMANS.get(name)
+    if person is not None:
+        return person
+    try:
+        return RobotSeat(body=make_robot(name))
+    except UnknownNameError as error:
+        known = ", ".join(map(repr, (*robot_names(), *HUMANS)))
+        raise InputError(f"partner must be one of {known}, got {name!r}") from error

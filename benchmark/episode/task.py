@@ -25,14 +25,14 @@ class Playing(Protocol):
     """The physical world, with its read-outs."""
     frames_per_step: int
     """Motion-capture frames per control period."""
-    step_limit: float
-    """Largest change of a robot's hand command in one step [m]."""
     plan: Plan
     """The human's private plan."""
     target: NDArray[np.float64]
     """(horizon,) the human's intended height at the end of each frame [m]."""
     horizon: int
     """Frames of the episode."""
+    step_limit: float
+    """Largest change of a robot's hand command in one step [m]."""
     frame: int
     """Frames since its beginning."""
     command: float

@@ -2,27 +2,34 @@
 
 from typing import Final, Literal
 
-from colift.benchmark.episode.seat import SEATS
-from colift.benchmark.world import NaoFarEnd
+from colift.agents.errors import InputError
+from colift.benchmark.episode.seat import HUMANS
+from colift.benchmark.robots.robot import Robot, make_robot
 
-Body = Literal["nao", "person", "unknown"]
-"""A NAO, a person, or a robot of which there is no picture."""
+PERSON: Final = "person"
 
-NAO: Final[Body] = "nao"
-PERSON: Final[Body] = "person"
-UNKNOWN: Final[Body] = "unknown"
+Body = Robot | Literal["person"] | None
+"""A robot, a person, or None for a robot whose package is not installed."""
 
 
 def shown_body(partner: str) -> Body:
-    """Return the body of a holder of the robot's end, by its name in :data:`.SEATS`."""
-    seat = SEATS.get(partner)
-    if seat is None:
-        return UNKNOWN
-    if seat.person is not None:
+    """Return the body of a holder of the robot's end, by its name."""
+    if partner in HUMANS:
         return PERSON
-    return NAO if isinstance(seat.body, NaoFarEnd) else UNKNOWN
+    try:
+        return make_robot(partner)
+    except InputError:
+        return None
 
 
 def no_picture(partner: str) -> str:
     """Return the words in place of a robot of which there is no picture."""
     return f"no picture of the robot {partner}"
+
+
+def label_of(partner: str) -> str:
+    """Return the name of a holder of the robot's end in pictures."""
+    body = shown_body(partner)
+    if body is None:
+        return partner
+    return HUMANS[partner].label if body == PERSON else body.label

@@ -14,9 +14,8 @@ from colift.benchmark.episode.drawn import (
     shown_error,
 )
 from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.seat import SEATS
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.rendering.bodies import PERSON, shown_body
+from colift.benchmark.rendering.bodies import PERSON, label_of, shown_body
 from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT
 from PIL import Image, ImageDraw, ImageFont
 
@@ -79,7 +78,7 @@ def readout(
     rows = [
         ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
         ("human's end", _millimetres(human), HUMAN, False),
-        (f"{SEATS[partner].label}'s end", _millimetres(robot), ROBOT, False),
+        (f"{label_of(partner)}'s end", _millimetres(robot), ROBOT, False),
         *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
     ]
     level = intended_far_end(drawn) is None and ball_and_target(drawn) is None

@@ -17,7 +17,7 @@ from colift.benchmark.episode.drawn import (
 from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import SEATS
+from colift.benchmark.rendering.bodies import label_of
 from colift.benchmark.rendering.caption import readout, title_strip
 from colift.benchmark.rendering.curves import Curves
 from colift.benchmark.rendering.scene import Picture, Scene
@@ -84,7 +84,7 @@ def frames(
     page = Image.new("RGB", (WIDTH, TITLE + SCENE + CURVES), PAPER)
     page.paste(title_strip(episode, policy, WIDTH, TITLE))
     drawn = drawn_series(scenario.task.metrics)
-    label = SEATS[partner].label
+    label = label_of(partner)
     curves = Curves(episode.trace, WIDTH, CURVES, partner=label, drawn=drawn)
     with closing(_scene(partner, drawn)) as scene:
         for frame in shown:
@@ -140,7 +140,7 @@ def still_picture(episode: Episode, scenario: Scenario, policy: str) -> Picture:
         episode.trace,
         STILL_WIDTH,
         STILL_CURVES,
-        partner=SEATS[partner].label,
+        partner=label_of(partner),
         drawn=drawn,
         scale=1.8 if not drawn else 1.6,
     )

@@ -1,4 +1,4 @@
-"""The scene: NAO on its pedestal or a second person, table, person; posed from two heights."""
+"""The scene: a robot on its pedestal or a second person, table, person; posed from two heights."""
 
 import logging
 import math
@@ -8,16 +8,15 @@ from typing import Final
 
 import numpy as np
 from colift.agents.errors import InputError
-from colift.benchmark.rendering.bodies import NAO, PERSON, UNKNOWN, no_picture, shown_body
+from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.rendering.caption import letters
 from colift.benchmark.rendering.mannequin import Mannequin
 from colift.benchmark.rendering.solids import box, disc, limb
 from colift.benchmark.rendering.style import AIM, HUMAN, INK, ROBOT, SKY, rgba
+from colift.benchmark.robots.robot import Robot
 from colift.benchmark.world.bullet import pybullet
-from colift.benchmark.world.table import TABLE_LENGTH
+from colift.benchmark.world.table import FAR_GRIP, TABLE_LENGTH
 from colift.robots.nao.facts import TORSO_HEIGHT
-from colift.robots.nao.kinematics import ARM_JOINTS, GRIP_X, REST_Z, STROKE, arm_path
-from colift.robots.nao.urdf import nao_urdf_path
 from numpy.typing import NDArray
 from PIL import Image, ImageColor, ImageDraw
 
@@ -93,7 +92,7 @@ class Scene:
     ) -> None:
         window = window and _display_there()
         self._client: int = pybullet.connect(pybullet.GUI if window else pybullet.DIRECT)
-        far_hands = np.array([GRIP_X, 0.0, REST_Z])
+        far_hands = np.array(FAR_GRIP)
         hands = far_hands + [TABLE_LENGTH, 0.0, 0.0]
         self._hands = hands
         client = self._client
@@ -126,17 +125,17 @@ class Scene:
         self._middle, self._half_width = (middle, 1.08) if body == PERSON else (0.65, 0.92)
         self._person = Mannequin(client, hands, -1, FLOOR, rgba(HUMAN))
         self._second: Mannequin | None = None
-        self._arm_joints: list[int] = []
-        self._words = no_picture(partner) if body == UNKNOWN else ""
+        self._robot: Robot | None = None
+        self._words = no_picture(partner) if body is None else ""
         if body == PERSON:
             self._second = Mannequin(client, far_hands, 1, FLOOR, rgba(ROBOT))
             stands.append(far_hands[0] - 0.37)
-        else:
-            block = np.array([-0.01, 0.0, FLOOR + PEDESTAL / 2])
-            box(client, block, (0.14, 0.15, PEDESTAL / 2), STONE)
-            if body == NAO:
-                self._load_nao()
-            stands.append(block[0])
+        elif body is not None:
+            x, _, z = body.place
+            half = (z + body.foot - FLOOR) / 2
+            box(client, np.array([x - 0.01, 0.0, FLOOR + half]), (0.14, 0.15, half), STONE)
+            self._load(body)
+            stands.append(x - 0.01)
         for x in stands:
             disc(client, np.array([x, 0.0, FLOOR + 0.004]), 0.30, SHADE)
         self.pose(0.0, 0.0)
@@ -148,16 +147,17 @@ class Scene:
                 1.9, 20, -12, (0.55, 0.0, -0.1), physicsClientId=self._client
             )
 
-    def _load_nao(self) -> None:
-        self._nao: int = pybullet.loadURDF(
-            str(nao_urdf_path()), useFixedBase=True, physicsClientId=self._client
+    def _load(self, robot: Robot) -> None:
+        client = self._client
+        self._robot = robot
+        self._body: int = pybullet.loadURDF(
+            str(robot.model()), robot.place, useFixedBase=True, physicsClientId=client
         )
-        count = pybullet.getNumJoints(self._nao, physicsClientId=self._client)
-        names = [
-            pybullet.getJointInfo(self._nao, i, physicsClientId=self._client)[1].decode()
-            for i in range(count)
-        ]
-        self._arm_joints = [names.index(name) for name in ARM_JOINTS]
+        joints = range(pybullet.getNumJoints(self._body, physicsClientId=client))
+        self._joints = {
+            pybullet.getJointInfo(self._body, i, physicsClientId=client)[1].decode(): i
+            for i in joints
+        }
 
     def pose(self, human_end: float, robot_end: float) -> None:
         """Show the lift with the table's ends at these heights [m]."""
@@ -165,10 +165,10 @@ class Scene:
         self._person.pose(human_end, tilt)
         if self._second is not None:
             self._second.pose(robot_end, tilt)
-        elif self._arm_joints:
-            angles = arm_path().joint_angles(min(max(robot_end, STROKE[0]), STROKE[1]))
-            for joint, angle in zip(self._arm_joints, angles, strict=True):
-                pybullet.resetJointState(self._nao, joint, angle, physicsClientId=self._client)
+        elif self._robot is not None:
+            for name, angle in self._robot.posture(robot_end).items():
+                joint = self._joints[name]
+                pybullet.resetJointState(self._body, joint, angle, physicsClientId=self._client)
         self._place(self._table, human_end, tilt)
         self._ends = human_end, tilt
 

@@ -69,6 +69,7 @@ class Suite:
         content = {
             "code": scores_hash(),
             "scenarios": [plain(scenario) for scenario in self.scenarios],
+            "holders": {each.partner: plain(each.seat) for each in self.scenarios},
             "seeds": self.seeds,
         }
         text = json.dumps(content, sort_keys=True, separators=(",", ":"))

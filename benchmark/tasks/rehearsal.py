@@ -9,7 +9,6 @@ from colift.agents.control.anticipation import ARM_LAG
 from colift.agents.control.preview import preview_gains
 from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.episode.seat import hand_commands
 from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
 
@@ -90,7 +89,7 @@ def rehearse_lift(
         episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
         if best is None or episode.scores["rmse_mm"] < best.scores["rmse_mm"]:
             best = episode
-        path = raised(episode.trace, missed(episode.trace), lift.frames_per_step)
+        path = raised(lift, episode.trace, missed(episode.trace))
     assert best is not None
     return best
 
@@ -111,7 +110,7 @@ def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
         The episode to begin with.
     """
     frames = lift.frames_per_step
-    best, path = episode, frame_commands(episode.trace, frames)
+    best, path = episode, frame_commands(lift, episode.trace)
     times = np.arange(len(path))
     for size in BUMPS:
         for centre in range(0, len(path), BUMP_SPACING):
@@ -125,34 +124,25 @@ def refine(lift: Lift, seed: int, episode: Episode) -> Episode:
     return best
 
 
-def frame_commands(trace: Trace, frames: int) -> NDArray[np.float64]:
-    """Return the hand's command in each frame of a trace [m], as its actions were carried out.
-
-    Parameters
-    ----------
-    trace
-        The trace.
-    frames
-        Frames in a control period.
-    """
-    ends = np.concatenate(([0.0], hand_commands(trace.action, frames * FRAME)))
+def frame_commands(lift: Lift, trace: Trace) -> NDArray[np.float64]:
+    """Return the hand's command in each frame of a lift's trace [m], as it was carried out."""
+    frames = lift.frames_per_step
+    ends = np.concatenate(([0.0], lift.seat.hand_commands(trace.action, frames * FRAME)))
     steps = np.arange(1, len(trace.human_end) + 1) / frames
     return np.asarray(np.interp(steps, np.arange(len(ends)), ends))
 
 
-def raised(trace: Trace, missed: NDArray[np.float64], frames: int) -> NDArray[np.float64]:
+def raised(lift: Lift, trace: Trace, missed: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the commands of a trace, raised by the error an arm's lag later [m].
 
     Parameters
     ----------
-    trace
-        The trace of a rehearsal.
+    lift, trace
+        The lift, and the trace of a rehearsal.
     missed
         Distance by which the robot's end was too low in each frame [m].
-    frames
-        Frames in a control period.
     """
-    return frame_commands(trace, frames) + _earlier(missed, round(ARM_LAG / FRAME))
+    return frame_commands(lift, trace) + _earlier(missed, round(ARM_LAG / FRAME))
 
 
 def _earlier(series: NDArray[np.float64], frames: int) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ import numpy as np
 from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation
 from colift.agents.humans import Partner
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import SEATS, within_range
+from colift.benchmark.episode.seat import HUMANS, within_range
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.twin import pair as pair_plant
 from colift.benchmark.twin import playing as lifting
@@ -70,8 +70,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     """
     drawn = draw_lifts(lifts)
     body, far_body = drawn.body, partner_body(len(lifts))
-    person = SEATS["human"].person
-    assert person is not None
+    person = HUMANS["human"].person
     delay = round(person.visual_delay / FRAME)
     partners = [Partner(subject=person) for _ in lifts]
     for partner in partners:

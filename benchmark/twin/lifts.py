@@ -14,7 +14,7 @@ from colift.agents.rules import SCALARS
 from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import SEATS, body_parameters
+from colift.benchmark.episode.seat import HUMANS, body_parameters
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.twin.body import CHUNK, DEPTH, Body, bodies
 from colift.benchmark.world.world import HISTORY_FRAMES
@@ -176,8 +176,7 @@ def _seen(target: Array, delay: int) -> Array:
 
 def partner_body(count: int) -> Body:
     """Return the body of the second person of the human-human team, n times."""
-    person = SEATS["human"].person
-    assert person is not None
+    person = HUMANS["human"].person
     return bodies([body_parameters(person)] * count)
 
 

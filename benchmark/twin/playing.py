@@ -16,6 +16,7 @@ from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.lifts import Lifts, chunk
 from colift.benchmark.twin.pair import PairPlant
 from colift.benchmark.twin.plant import Plant, advance_plant, plant_at_rest
+from colift.robots.nao.kinematics import STROKE
 
 
 class LiftState(NamedTuple):
@@ -153,7 +154,7 @@ def hands_step(
         The lifts, and the heights in the frames of the step.
     """
     size = hands.shape[0]
-    command = limited_command(LIFTS, playing.command, action, action_limit(size * FRAME))
+    command = limited_command(LIFTS, playing.command, action, action_limit(size * FRAME), STROKE)
     hands = jnp.clip(hands, *REFERENCE_RANGE)
     commands = ramp(playing.command, command, size)
 

@@ -33,6 +33,7 @@ from colift.benchmark.twin.playing import ramp
 from colift.benchmark.twin.rollout import Policy
 from colift.benchmark.twin.touch_lifts import TouchLifts
 from colift.benchmark.twin.touch_view import TouchState, TouchView
+from colift.robots.nao.kinematics import STROKE
 
 
 class Noise(NamedTuple):
@@ -117,7 +118,7 @@ class TaskTwin:
         if added is not None:
             references, wrist = references + added.height, wrist + added.pitch
         meant = Meant(jnp.clip(references, *REFERENCE_RANGE), differences, wrist)
-        after = limited_command(LIFTS, state.command, action, action_limit(size * FRAME))
+        after = limited_command(LIFTS, state.command, action, action_limit(size * FRAME), STROKE)
         commands = ramp(state.command, after, size)
         table, ends = moved_table(state.table, lifts.body, meant, commands, variation)
         lost = jnp.broadcast_to(self.task.lost(LIFTS, ends), references.shape).any(axis=0)

@@ -1,13 +1,10 @@
 """The actions of a second person in a live lift, derived from the samples of the hand."""
 
 import numpy as np
-from colift.agents.actions import action_limit
 from colift.agents.agent import Agent, HumanObservation, RobotObservation
 from colift.agents.humans import PersonAsRobot, Played, PlayedHand
 from colift.agents.humans.hand_log import HandLog, LoggedHand
-from colift.agents.rules import SCALARS
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import limited_command
 from numpy.typing import NDArray
 
 
@@ -42,12 +39,12 @@ def far_actions(scenario: Scenario, steps: int) -> NDArray[np.float64] | None:
     if not scenario.seat.is_robot:
         nothing = np.zeros(HumanObservation.size(frames))
         return np.array([person.act(nothing) for _ in range(steps)]).reshape(steps, frames)
-    limit, found = action_limit(scenario.control_period), np.empty((steps, 1))
+    period, found = scenario.control_period, np.empty((steps, 1))
     seen = np.zeros(len(RobotObservation))
     for step in range(steps):
         found[step] = person.act(seen)
         command = float(seen[RobotObservation.HAND_COMMAND])
-        change = limited_command(SCALARS, command, float(found[step, 0]), limit) - command
+        change = scenario.seat.reached(command, float(found[step, 0]), period) - command
         # This gives the bits of the last command of the seat's ramp.
         seen[RobotObservation.HAND_COMMAND] = command + change * frames / frames
     return found

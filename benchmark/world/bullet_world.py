@@ -10,9 +10,9 @@ from colift.benchmark.world.ball import Ball, TableMotion
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.engine import BulletEngine, disconnect, load_urdf_text, new_client
 from colift.benchmark.world.human_body import BodyParameters, HumanBody
-from colift.benchmark.world.nao_arms import NaoArms
 from colift.benchmark.world.physics import PHYSICS, Physics
 from colift.benchmark.world.table import (
+    FAR_GRIP,
     FAR_GRIP_DAMPING,
     FAR_GRIP_STIFFNESS,
     GRAVITY,
@@ -73,11 +73,10 @@ class BulletWorld:
         self._begins = [i / physics.steps_per_frame for i in range(physics.steps_per_frame)]
         self._body = HumanBody(human, physics.step)
         self._mass = human.mass
-        grip = NaoArms.REST_GRIP
         self._tree = load_urdf_text(
             self.client,
             table_urdf(human.mass, far_end.mass),
-            (grip[0] + TABLE_LENGTH, 0.0, grip[2]),
+            (FAR_GRIP[0] + TABLE_LENGTH, 0.0, FAR_GRIP[2]),
         )
         for joint in (SLIDE, HANDS, PITCH):
             pybullet.setJointMotorControl2(

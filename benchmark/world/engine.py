@@ -2,6 +2,7 @@
 
 import tempfile
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Final
 
 from colift.benchmark.world.bullet import pybullet, silent
@@ -55,18 +56,42 @@ def load_urdf_text(client: int, text: str, position: Vector) -> int:
     with tempfile.NamedTemporaryFile("w", suffix=".urdf") as file:
         file.write(text)
         file.flush()
-        body: int = pybullet.loadURDF(
-            file.name,
-            position,
-            useFixedBase=True,
-            flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
-            physicsClientId=client,
-        )
+        return load_urdf(client, Path(file.name), position)
+
+
+def load_urdf(client: int, path: Path, position: Vector) -> int:
+    """Load the robot of a URDF file, as :func:`load_urdf_text`."""
+    body: int = pybullet.loadURDF(
+        str(path),
+        position,
+        useFixedBase=True,
+        flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
+        physicsClientId=client,
+    )
     for link in range(-1, pybullet.getNumJoints(body, physicsClientId=client)):
         pybullet.changeDynamics(
             body, link, linearDamping=0, angularDamping=0, jointDamping=0, physicsClientId=client
         )
     return body
+
+
+def pin(client: int, hand: tuple[int, int], table: tuple[int, int], point: Vector) -> None:
+    """Pin a hand to the table, bodies and links, at a point of the world [m]."""
+    anchors = []
+    for body, link in (hand, table):
+        state = pybullet.getLinkState(
+            body, link, computeForwardKinematics=1, physicsClientId=client
+        )
+        inverse = pybullet.invertTransform(state[0], state[1])
+        anchors.append(pybullet.multiplyTransforms(*inverse, point, (0, 0, 0, 1))[0])
+    pybullet.createConstraint(
+        *hand,
+        *table,
+        pybullet.JOINT_POINT2POINT,
+        (0, 0, 0),
+        *anchors,
+        physicsClientId=client,
+    )
 
 
 def disconnect(client: int) -> None:

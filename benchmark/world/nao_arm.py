@@ -3,7 +3,7 @@
 from typing import Final
 
 from colift.benchmark.world.bullet import pybullet
-from colift.benchmark.world.engine import Vector, load_urdf_text
+from colift.benchmark.world.engine import Vector, load_urdf_text, pin
 from colift.robots.nao.facts import ARM, HAND_OFFSET_X, HAND_OFFSET_Z, JOINTS
 from colift.robots.nao.urdf import arm_urdf
 
@@ -40,23 +40,7 @@ class NaoArm:
 
     def grip(self, table: int, link: int, point: Vector) -> None:
         """Pin the hand to a link of the table at ``point`` (world frame) [m]."""
-        anchors = []
-        for body, index in ((self._body, self._wrist), (table, link)):
-            state = pybullet.getLinkState(
-                body, index, computeForwardKinematics=1, physicsClientId=self._client
-            )
-            inverse = pybullet.invertTransform(state[0], state[1])
-            anchors.append(pybullet.multiplyTransforms(*inverse, point, (0, 0, 0, 1))[0])
-        pybullet.createConstraint(
-            self._body,
-            self._wrist,
-            table,
-            link,
-            pybullet.JOINT_POINT2POINT,
-            (0, 0, 0),
-            *anchors,
-            physicsClientId=self._client,
-        )
+        pin(self._client, (self._body, self._wrist), (table, link), point)
 
     def drive(self, angles: list[float], gains: list[float], efforts: list[float]) -> None:
         """Set the motors, which keep their settings: angles [rad], gains, largest torques [N m]."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from colift.agents.agent import FRAME
-from colift.benchmark.world.engine import BulletEngine, Vector
+from colift.benchmark.world.engine import BulletEngine
 from colift.benchmark.world.nao_arm import NaoArm
 from colift.benchmark.world.servo import SERVO, Servo
 from colift.benchmark.world.table import PITCH, WEIGHT_SHARE
@@ -37,9 +37,6 @@ class NaoArms:
     A constant offset compensates for the sag at rest under the table's weight (see
     :class:`.Servo`); elsewhere along the stroke a little of it remains.
     """
-
-    REST_GRIP: ClassVar[Vector] = (GRIP_X, 0.0, REST_Z)
-    """Middle between the hands at rest, in the torso frame [m]."""
 
     def __init__(self, engine: BulletEngine, servo: Servo, *, apart: bool = False) -> None:
         physics = engine.physics

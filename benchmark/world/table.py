@@ -16,6 +16,8 @@ same with both.
 
 from typing import Final
 
+from colift.robots.nao.kinematics import GRIP_X, REST_Z
+
 TABLE_LENGTH: Final = 0.8
 """Distance between the two grips [m]."""
 
@@ -45,6 +47,9 @@ TABLE_INERTIA: Final = TABLE_MASS * TABLE_LENGTH**2 / 3
 
 WEIGHT_SHARE: Final = TABLE_MASS * GRAVITY / 2
 """The weight that each end carries when the table is level and still [N]."""
+
+FAR_GRIP: Final = (GRIP_X, 0.0, REST_Z)
+"""Middle of the far grip at rest [m]; the world's origin is in the NAO's torso."""
 
 SLIDE, HANDS, PITCH = 0, 1, 2
 """Joint indices of the tree; ``PITCH`` is also the index of the table's link."""

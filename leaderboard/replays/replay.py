@@ -51,11 +51,11 @@ from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import hand_commands
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.rendering.bodies import NAO, PERSON, no_picture, shown_body
+from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.results.goals import lift_goal_errors
+from colift.benchmark.robots.nao import Nao
 from numpy.typing import ArrayLike
 
 
@@ -148,7 +148,7 @@ def replay_content(
         "human": changes(trace.human_end),
         "robot": changes(trace.robot_end),
         "target": [] if played else changes(trace.target),
-        "command": _units(hand_commands(trace.action, scenario.control_period), UNIT),
+        "command": _units(scenario.seat.hand_commands(trace.action, scenario.control_period), UNIT),
         "prediction": _said(internals.get("prediction"), UNIT),
         "confidence": _said(internals.get("confidence"), 1e-3),
         "role": _said(internals.get("role"), 1e-3),
@@ -184,7 +184,7 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
 def _holder(partner: str) -> dict[str, str]:
     """Return the body at the robot's end unless it is a NAO: a person, or words in its place."""
     body = shown_body(partner)
-    if body == NAO:
+    if isinstance(body, Nao):
         return {}
     return {"holder": PERSON if body == PERSON else no_picture(partner)}
 

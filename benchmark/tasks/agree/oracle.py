@@ -102,7 +102,7 @@ def foreknow_agreement(lift: Lift, seed: int) -> Episode:
     best = tried[0][0]
     for episode, detour in tried[:KEPT]:
         for _ in range(REHEARSALS):
-            path = _more_level(episode, detour, lift.frames_per_step)
+            path = _more_level(lift, episode, detour)
             episode = run_episode(lift, Foreknowing(path, lift.frames_per_step), seed)
             best = min(best, episode, key=lambda each: each.scores["rmse_mm"])
     return best
@@ -122,9 +122,9 @@ def detours(lift: Lift) -> list[Detour | None]:
     ]
 
 
-def _more_level(episode: Episode, detour: Detour | None, frames: int) -> NDArray[np.float64]:
+def _more_level(lift: Lift, episode: Episode, detour: Detour | None) -> NDArray[np.float64]:
     """Return the path to command next: more level, except in the detour."""
     left = episode.trace.human_end - episode.trace.robot_end
     if detour is not None:
         left[detour.start : detour.start + detour.way + detour.stay] = 0.0
-    return raised(episode.trace, left, frames)
+    return raised(lift, episode.trace, left)
