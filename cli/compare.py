@@ -37,6 +37,7 @@ from colift.cli.options import (
     ChannelName,
     Jobs,
     Recordings,
+    RobotName,
     Seeds,
     chosen_channel,
     chosen_suite,
@@ -70,6 +71,7 @@ def compare_policies(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    robot: RobotName = None,
     channel: ChannelName = None,
     bounds: Annotated[
         bool,
@@ -88,10 +90,10 @@ def compare_policies(
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     named = policies or []
     bundles = _stored(named)
-    if bundles and not (suite or seeds or recordings or behaviour):
+    if bundles and not (suite or seeds or recordings or behaviour or robot):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite, seeds, recordings, behaviour)
+        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
     for each in stored:

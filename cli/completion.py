@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from colift.agents.registry import HUMANS, POLICIES, SUITES, entries
+from colift.agents.registry import HUMANS, POLICIES, ROBOTS, SUITES, entries
 from colift.benchmark.channels import CHANNELS
 
 
@@ -29,6 +29,11 @@ def policies(incomplete: str) -> Iterator[str]:
 def suites(incomplete: str) -> Iterator[str]:
     """Yield the suites that begin with a text."""
     yield from (name for name in entries(SUITES) if name.startswith(incomplete))
+
+
+def robots(incomplete: str) -> Iterator[str]:
+    """Yield the robots that begin with a text."""
+    yield from (name for name in entries(ROBOTS) if name.startswith(incomplete))
 
 
 def behaviours(incomplete: str) -> Iterator[str]:

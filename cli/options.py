@@ -12,7 +12,7 @@ import typer
 from colift.agents.errors import InputError
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
-from colift.cli.completion import behaviours, channels, policies, suites
+from colift.cli.completion import behaviours, channels, policies, robots, suites
 from colift.cli.remedies import naming, opened
 
 # The engine takes a second to import: not for a help text or a completion.
@@ -58,6 +58,15 @@ Recordings = Annotated[
         metavar="CSV",
         help="Recorded human motion instead of a suite: a file with the columns trial,t_s,z_m, or "
         "the folder of a session of 'colift play'.",
+    ),
+]
+RobotName = Annotated[
+    str | None,
+    typer.Option(
+        "--robot",
+        metavar="NAME",
+        help="Robot at the far end, from 'colift list'; default: nao.",
+        autocompletion=robots,
     ),
 ]
 Behaviours = Annotated[
@@ -125,10 +134,11 @@ def chosen_suite(
     seeds: str | None,
     recordings: Path | None,
     behaviours: Sequence[str] | None = None,
+    robot: str | None = None,
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
-    With neither a name nor recordings, it is :data:`STANDARD`.
+    With neither a name nor recordings, it is :data:`STANDARD`. With a robot, it plays with that.
 
     Raises
     ------
@@ -141,6 +151,7 @@ def chosen_suite(
         suite = make_suite(name or STANDARD)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
+        suite = suite.with_robot(robot)
         return suite if seeds is None else suite.with_seeds(*seed_range(seeds))
     if behaviours:
         raise InputError("--behaviour and --recordings exclude each other: people move as recorded")
@@ -152,7 +163,7 @@ def chosen_suite(
 
     lifts = real_lifts(recordings)
     report_left_out(recordings.name, lifts.left_out)
-    return lifts.suite
+    return lifts.suite.with_robot(robot)
 
 
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:

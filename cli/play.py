@@ -11,9 +11,10 @@ import typer
 from colift.agents.errors import InputError
 from colift.agents.extras import how_to_install
 from colift.agents.spec import AUTO
+from colift.benchmark.robots.robot import ROBOT, make_robot
 from colift.cli.completion import policies
 from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
-from colift.cli.options import PolicyIsolation, check_folder
+from colift.cli.options import PolicyIsolation, RobotName, check_folder
 from colift.cli.partners import FIRST, partners
 from colift.leaderboard.logs import write_log
 
@@ -51,6 +52,7 @@ def play(
     rooms: Annotated[
         int, typer.Option(metavar="N", min=1, max=64, help="Largest number of sessions at a time.")
     ] = 8,
+    robot: RobotName = None,
     isolation: PolicyIsolation = AUTO,
     root: Annotated[
         str,
@@ -71,10 +73,12 @@ def play(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"
         ) from error
     check_folder("--out", out)
+    make_robot(robot or ROBOT)
     named, lines = partners(policy, isolation)
     config = PlayConfig(
         folder=out.absolute(),
         policies=named,
+        robot=robot or ROBOT,
         descriptions=lines,
         rooms=rooms,
         hosts=frozenset() if root or not _is_loopback(host) else HOSTS,

@@ -15,11 +15,18 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.progress import progress_bar
+from colift.benchmark.robots.robot import ROBOT, make_robot
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tables.failures import printed_lines
 from colift.cli.completion import behaviours, people
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, PolicyName, check_output
+from colift.cli.options import (
+    LATENCY_OPTION,
+    PERIOD_OPTION,
+    PolicyName,
+    RobotName,
+    check_output,
+)
 
 HTML: Final = ".html"
 
@@ -54,6 +61,7 @@ def render_episode(
     task: Annotated[
         str, typer.Option(metavar="NAME", help="The task of the lift; see 'colift list'.")
     ] = LEVEL.name,
+    robot: RobotName = None,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
@@ -64,9 +72,9 @@ def render_episode(
     _check(out)
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
-    played = make_scenario(
-        scenario or behaviour, subject, control_period=control_period, latency=latency, task=task
-    )
+    holder = robot or ROBOT
+    make_robot(holder)
+    played = make_scenario(scenario or behaviour, subject, holder, control_period, latency, task)
     check_plays(policy, task)
     spec = checked_policy(policy)
     with reported_interrupt(f"{out} is not drawn"):

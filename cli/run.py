@@ -16,6 +16,7 @@ from colift.cli.options import (
     PolicyIsolation,
     PolicyName,
     Recordings,
+    RobotName,
     Seeds,
     SuiteName,
     chosen_channel,
@@ -30,6 +31,7 @@ def run(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    robot: RobotName = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
     channel: ChannelName = None,
@@ -55,7 +57,7 @@ def run(
     # The engine takes a second to import: not for a help text or a completion.
     from colift.cli.evaluation import Bundle, evaluate
 
-    episodes = chosen_suite(suite, seeds, recordings, behaviour).with_timing(
+    episodes = chosen_suite(suite, seeds, recordings, behaviour, robot).with_timing(
         latency, control_period
     )
     network = chosen_channel(channel)

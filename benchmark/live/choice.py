@@ -10,6 +10,7 @@ from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import LATENCY, LONGEST_LATENCY
 from colift.benchmark.live.scenarios import MIXTURES
 from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.robots.robot import ROBOT
 
 SIMULATED: Final = "simulated person"
 """The simulated second person of the human-human baseline."""
@@ -18,7 +19,7 @@ PERSON: Final = "person"
 """A second real person, with simulated arms at the far end."""
 
 PERSON_AS_ROBOT: Final = "person as robot"
-"""A second person who commands the NAO."""
+"""A second person who commands the robot."""
 
 LIVE_DIGEST: Final = "live"
 """Digest that stands in for a policy's where a person acted."""
@@ -32,7 +33,7 @@ class LivePartner:
 
     name: str
     seat: str
-    """Holder of the far end: a name of :data:`.SEATS`."""
+    """Holder of the far end: a robot, or a person of :data:`.HUMANS`."""
     spec: AgentSpec | None = None
     """The agent; None if a second person acts."""
 
@@ -42,8 +43,8 @@ class LivePartner:
         return 1 if self.spec is not None else 2
 
 
-def live_partner(name: str, policies: Mapping[str, AgentSpec]) -> LivePartner:
-    """Return a partner by the name that pages use.
+def live_partner(name: str, policies: Mapping[str, AgentSpec], robot: str = ROBOT) -> LivePartner:
+    """Return a partner by the name that pages use; policies move a robot.
 
     Raises
     ------
@@ -51,11 +52,11 @@ def live_partner(name: str, policies: Mapping[str, AgentSpec]) -> LivePartner:
         If there is none of that name; the message lists all.
     """
     if name in policies:
-        return LivePartner(name=name, seat="nao", spec=policies[name])
+        return LivePartner(name=name, seat=robot, spec=policies[name])
     others = {
         SIMULATED: LivePartner(name=SIMULATED, seat="human", spec=PARTNER_SPEC),
         PERSON: LivePartner(name=PERSON, seat="live"),
-        PERSON_AS_ROBOT: LivePartner(name=PERSON_AS_ROBOT, seat="nao"),
+        PERSON_AS_ROBOT: LivePartner(name=PERSON_AS_ROBOT, seat=robot),
     }
     if name not in others:
         known = ", ".join([*policies, *others])
@@ -74,12 +75,17 @@ class HostChoice:
     """Age of the motion-capture sample when a robot decides [s]."""
 
     @classmethod
-    def first(cls, policies: Mapping[str, AgentSpec]) -> "HostChoice":
+    def first(cls, policies: Mapping[str, AgentSpec], robot: str = ROBOT) -> "HostChoice":
         """Return the choice of a new room: the first policy."""
-        return cls(partner=live_partner(next(iter(policies)), policies))
+        return cls(partner=live_partner(next(iter(policies)), policies, robot))
 
     @classmethod
-    def parse(cls, content: Mapping[str, Any], policies: Mapping[str, AgentSpec]) -> "HostChoice":
+    def parse(
+        cls,
+        content: Mapping[str, Any],
+        policies: Mapping[str, AgentSpec],
+        robot: str = ROBOT,
+    ) -> "HostChoice":
         """Return the choice of a page's message.
 
         Raises
@@ -95,7 +101,7 @@ class HostChoice:
         longest = 1000 * LONGEST_LATENCY
         if not isinstance(latency, int | float) or not 0 <= latency <= longest:
             raise InputError(f"latency_ms must be 0 to {longest:g}, got {latency!r:.40}")
-        partner = live_partner(str(content.get("partner")), policies)
+        partner = live_partner(str(content.get("partner")), policies, robot)
         return cls(partner=partner, mixture=mixture, latency=in_frames(latency / 1000))
 
 

@@ -5,6 +5,7 @@ that it returns. It can therefore run in real time in a process, and in simulate
 the same, in tests.
 """
 
+import dataclasses
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -27,6 +28,7 @@ from colift.benchmark.live.seats import ALL, Message, SeatedPerson, Seats
 from colift.benchmark.live.session import SessionFolder
 from colift.benchmark.live.standing import Standing, ghost_rmse, rehearse
 from colift.benchmark.results.goals import lift_goal_errors
+from colift.benchmark.robots.robot import ROBOT
 
 AHEAD_S: Final = 0.5
 """Time from the last closed hand to the first frame [s]: pages need it to prepare."""
@@ -44,6 +46,8 @@ class RoomConfig:
     """The session's folder."""
     policies: Mapping[str, AgentSpec]
     """Partners by the names that pages use, in order; the first is chosen first."""
+    robot: str = ROBOT
+    """The robot that policies move."""
     cue_seed: int = 0
     """Seed of the session's cues."""
 
@@ -52,11 +56,11 @@ class Room:
     """People who lift with a partner, again and again; see the module."""
 
     def __init__(self, config: RoomConfig) -> None:
-        self._policies = config.policies
+        self._policies, self._robot = config.policies, config.robot
         self._cue_seed = config.cue_seed
         self._session = SessionFolder(config.folder)
         self._seats = Seats()
-        self._choice = HostChoice.first(config.policies)
+        self._choice = HostChoice.first(config.policies, config.robot)
         self._prepared = False
         self._lifting: Lifting | None = None
         self._number = self._session.next_number()
@@ -138,7 +142,7 @@ class Room:
     def _choose(self, seat: int, content: dict[str, Any]) -> list[Message]:
         if seat != 0 or self._lifting is not None:
             raise InputError("only the host may choose the partner, and not during a lift")
-        self._choice, self._prepared = HostChoice.parse(content, self._policies), False
+        self._choice, self._prepared = HostChoice.parse(content, self._policies, self._robot), False
         return self._state()
 
     def _swap(self, seat: int) -> list[Message]:
@@ -255,7 +259,11 @@ class Room:
         failure = run.episodes[0].failure
         self._standing = None
         if not is_policy_failure(failure):  # Else there is no movement.
-            self._standing = Standing(run.suite.scenarios[0], self._policies, lag=lifting.lag)
+            self._standing = Standing(
+                dataclasses.replace(run.suite.scenarios[0], partner=self._robot),
+                self._policies,
+                lag=lifting.lag,
+            )
         end = {
             "type": "end",
             "lift": number,

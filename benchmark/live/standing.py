@@ -47,7 +47,7 @@ class Standing:
         self, scenario: Scenario, policies: Mapping[str, AgentSpec], lag: float = 0.0
     ) -> None:
         self._latency = in_frames(LATENCY + lag)
-        self._scenario = dataclasses.replace(scenario, partner="nao", latency=self._latency)
+        self._scenario = dataclasses.replace(scenario, latency=self._latency)
         self._left: Iterator[tuple[str, AgentSpec]] = iter([*policies.items()])
         self._found: list[dict[str, Any]] = []
 

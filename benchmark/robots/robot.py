@@ -3,11 +3,14 @@
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import Protocol
+from typing import Final, Protocol
 
 from colift.agents.plugins import make_registered, object_fault
 from colift.agents.registry import ROBOTS, entries
 from colift.benchmark.world import FarEnd
+
+ROBOT: Final = "nao"
+"""The default robot, that of the paper."""
 
 Place = tuple[float, float, float]
 

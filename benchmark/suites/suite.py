@@ -17,6 +17,7 @@ from colift.benchmark.episode.identity import plain, scores_hash
 from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.robots.robot import make_robot
 from colift.benchmark.suites.catalogue import RECORDED, make_scenario
 from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 
@@ -117,6 +118,21 @@ class Suite:
             dataclasses.replace(scenario, partner=partner) for scenario in self.scenarios
         )
         return dataclasses.replace(self, scenarios=scenarios)
+
+    def with_robot(self, robot: str | None) -> "Suite":
+        """Return the same episodes with another robot, by its name; None changes nothing.
+
+        Raises
+        ------
+        InputError
+            If there is no such robot.
+        """
+        if robot is None or robot == self.scenarios[0].partner:
+            return self
+        make_robot(robot)
+        return dataclasses.replace(
+            self.with_partner(robot), name=plain_name(f"{self.name} ({robot})")
+        )
 
     def with_timing(self, latency: float | None, control_period: float | None) -> "Suite":
         """Return the same episodes with another latency or control period [s].

@@ -11,6 +11,7 @@ from colift.agents.spec import AgentSpec
 from colift.benchmark.live.process import RoomProcess, start_room
 from colift.benchmark.live.room import RoomConfig
 from colift.benchmark.live.session import SessionFolder
+from colift.benchmark.robots.robot import ROBOT
 from colift.leaderboard.live.group import Group
 from colift.leaderboard.live.load import busy
 from colift.leaderboard.live.page import REFUSED, Page
@@ -40,6 +41,8 @@ class PlayConfig:
     """Folder of the sessions, each of which is a folder."""
     policies: Mapping[str, AgentSpec]
     """Partners by the names that pages use, in order; the first is the default."""
+    robot: str = ROBOT
+    """The robot that policies move."""
     descriptions: Mapping[str, str] = field(default_factory=dict)
     """A line about each of them."""
     rooms: int = 8
@@ -182,6 +185,7 @@ class Keeper:
         config = RoomConfig(
             folder=group.session.folder,
             policies=self._config.policies,
+            robot=self._config.robot,
             cue_seed=group.session.cue_seed,
         )
         try:

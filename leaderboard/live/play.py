@@ -5,6 +5,7 @@ import gc
 import json
 from collections.abc import Awaitable, Callable
 
+from colift.benchmark.robots.robot import ROBOT
 from colift.leaderboard.live import limits
 from colift.leaderboard.live.keeper import Keeper, PlayConfig
 from colift.leaderboard.live.replaying import Replays
@@ -40,7 +41,10 @@ class Play:
 
     async def start(self) -> None:
         """Begin to assign rooms."""
-        self.geometry = await asyncio.to_thread(lambda: json.dumps(geometry()).encode())
+        robot = {"robot": self.config.robot} if self.config.robot != ROBOT else {}
+        self.geometry = await asyncio.to_thread(
+            lambda: json.dumps({**geometry(), **robot}).encode()
+        )
         self.keeper.start()
         gc.collect()
         gc.freeze()

@@ -13,7 +13,9 @@ from typing import Any, Final
 import numpy as np
 from colift.benchmark.rendering import mannequin
 from colift.benchmark.rendering.scene import FLOOR, PEDESTAL
-from colift.benchmark.world.table import TABLE_LENGTH
+from colift.benchmark.robots.robot import ROBOT, Robot, make_robot, robot_names
+from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.table import FAR_GRIP, TABLE_LENGTH
 from colift.robots.description import rotations
 from colift.robots.description.parts import GREY, Shape
 from colift.robots.nao import shapes as nao_shapes
@@ -83,7 +85,8 @@ def geometry() -> dict[str, Any]:
     rods between two balls: ``[x, z, radius, x, z, radius, width as a fraction of the height,
     colour]``, x ahead of the hands. ``arm`` has the places of shoulder, elbow, wrist and hand, in
     rows by the height of the hands above rest: the first at ``lowest``, each ``step`` above the
-    one before.
+    one before. ``robots`` has the same of other robots than the NAO by name, from their base to
+    their hand, and x and z of their ``foot``.
     """
     return {
         "floor": _rounded(FLOOR),
@@ -91,6 +94,7 @@ def geometry() -> dict[str, Any]:
         "table": TABLE_LENGTH,
         "grip": [GRIP_X, REST_Z],
         "nao": {"body": _nao(), "arm": _rows(_nao_arm, STROKE)},
+        "robots": {name: _chain(make_robot(name)) for name in robot_names() if name != ROBOT},
         "person": {"body": _person(), "arm": _rows(_person_arm, REACH)},
     }
 
@@ -141,6 +145,41 @@ def _still_links() -> dict[str, NDArray[np.float64]]:
         if joint.parent in places and not moves:
             places[joint.child] = places[joint.parent] + np.array(joint.origin)
     return places
+
+
+def _chain(robot: Robot) -> dict[str, Any]:
+    """Return a robot as its links between joints: the places of these, and of its foot."""
+    client: int = pybullet.connect(pybullet.DIRECT)
+    try:
+        body = pybullet.loadURDF(
+            str(robot.model()), robot.place, useFixedBase=True, physicsClientId=client
+        )
+        joints = [
+            pybullet.getJointInfo(body, i, physicsClientId=client)
+            for i in range(pybullet.getNumJoints(body, physicsClientId=client))
+        ]
+        index = {joint[1].decode(): joint[0] for joint in joints}
+        chain = [index[[*robot.posture(0.0)][-1]]]
+        while joints[chain[0]][16] >= 0:
+            chain.insert(0, joints[chain[0]][16])
+
+        def pose(height: float) -> list[list[float]]:
+            for name, angle in robot.posture(height).items():
+                pybullet.resetJointState(body, index[name], angle, physicsClientId=client)
+            states = (
+                pybullet.getLinkState(
+                    body, link, computeForwardKinematics=1, physicsClientId=client
+                )
+                for link in chain
+            )
+            places = [robot.place, *(state[4] for state in states)]
+            hand = [FAR_GRIP[0], FAR_GRIP[2] + height]
+            return [*([place[0], place[2]] for place in places), hand]
+
+        foot = [_rounded(robot.place[0]), _rounded(robot.place[2] + robot.foot)]
+        return {"foot": foot, "arm": _rows(pose, robot.stroke)}
+    finally:
+        pybullet.disconnect(client)
 
 
 def _person() -> list[Flat]:

@@ -27,7 +27,8 @@ goal_error_mm            only of live lifts: how far the hand was from them; nul
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
-holder                   only without a NAO: ``person``, or words on a robot without a picture
+holder                   only without a NAO: ``person``, another robot by its name, or words on one
+                         without a picture
 ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
                          instead; ``team`` is true if both are simulated, and not one of them
 ======================== =========================================================================
@@ -55,7 +56,7 @@ from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.results.goals import lift_goal_errors
-from colift.benchmark.robots.nao import Nao
+from colift.benchmark.robots.robot import ROBOT
 from numpy.typing import ArrayLike
 
 
@@ -183,10 +184,12 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
 
 def _holder(partner: str) -> dict[str, str]:
     """Return the body at the robot's end unless it is a NAO: a person, or words in its place."""
-    body = shown_body(partner)
-    if isinstance(body, Nao):
+    if partner == ROBOT:
         return {}
-    return {"holder": PERSON if body == PERSON else no_picture(partner)}
+    body = shown_body(partner)
+    if body is None:
+        return {"holder": no_picture(partner)}
+    return {"holder": PERSON if body == PERSON else partner}
 
 
 def changes(heights: ArrayLike) -> list[int]:

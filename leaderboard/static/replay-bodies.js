@@ -153,6 +153,27 @@
     }
   }
 
+  // A robot arm as a chain of links, on a pedestal.
+  class Chain {
+    constructor(parent, robot, floor) {
+      this.arm = robot.arm;
+      this.group = make("g", { class: "replay-chain none" }, parent);
+      const [x, top] = robot.foot;
+      const stone = { x: x - 0.14, y: -top, width: 0.28, height: top - floor, rx: 0.012 };
+      make("rect", { ...stone, class: "stone" }, this.group);
+      const links = robot.arm.rows[0].length - 1;
+      const radius = (i) => 0.065 - (0.04 * i) / links;
+      this.links = [...Array(links).keys()].map(
+        (i) => new Limb(this.group, i % 2 ? "orange" : "grey", radius(i), radius(i + 1))
+      );
+    }
+
+    pose(height) {
+      const places = armAt(this.arm, height);
+      this.links.forEach((link, i) => link.pose(places[i], places[i + 1]));
+    }
+  }
+
   const colift = (window.coliftReplay = window.coliftReplay || {});
-  Object.assign(colift, { make, Nao, NaoArm, Person });
+  Object.assign(colift, { make, Chain, Nao, NaoArm, Person });
 })();

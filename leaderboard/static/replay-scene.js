@@ -8,7 +8,7 @@
   const NARROW = 480; // pixels: below it there is no room for numbers in the scene
 
   const colift = window.coliftReplay;
-  const { make, Nao, NaoArm, Person } = colift;
+  const { make, Nao, Chain, NaoArm, Person } = colift;
 
   // The table between its two ends, with one shape for the board and one for each end's colour.
   class Table {
@@ -97,6 +97,10 @@
       this.ghostTable = new Table(make("g", { class: "replay-ghost" }, svg), geometry, "ghost");
       this.table = new Table(svg, geometry, "real");
       this.arm = new NaoArm(svg, geometry);
+      this.chains = new Map();
+      for (const [name, robot] of Object.entries(geometry.robots)) {
+        this.chains.set(name, new Chain(svg, robot, floor));
+      }
       svg.appendChild(this.person.front); // The hands hold the table from both sides.
       this.intention = make("path", { d: "M0 0h.13", class: "intention" }, svg);
       this.intended = make("line", { class: "intended-pose none" }, svg);
@@ -157,12 +161,16 @@
       for (const text of [this.level.text, this.unknown]) text.setAttribute("font-size", size(LETTERS + 1));
     }
 
-    // The body at the robot's end: a NAO, "person", or words on a robot without a picture.
+    // The body at the robot's end: a NAO, "person", another robot by its name, or words on one
+    // without a picture.
     hold(holder) {
       this.svg.classList.toggle("no-nao", Boolean(holder));
-      const words = holder && holder !== "person" ? holder : "";
+      const chain = this.chains.get(holder);
+      for (const each of this.chains.values()) each.group.classList.toggle("none", each !== chain);
+      this.held = chain || this.arm;
+      const words = holder && !chain && holder !== "person" ? holder : "";
       this.second.group.classList.toggle("none", holder !== "person");
-      this.pedestal.classList.toggle("none", holder === "person");
+      this.pedestal.classList.toggle("none", holder === "person" || Boolean(chain));
       this.unknown.classList.toggle("none", !words);
       this.unknown.textContent = words;
     }
@@ -175,7 +183,7 @@
     pose(now) {
       this.table.pose(now.human, now.robot);
       this.person.pose(now.human);
-      this.arm.pose(now.robot);
+      this.held.pose(now.robot);
       this.second.pose(now.robot);
       this.ghostTable.pose(now.ghostHuman, now.ghostRobot);
       this.partner.pose(now.ghostRobot);

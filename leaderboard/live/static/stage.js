@@ -42,7 +42,8 @@
       make("path", { d: "M-.06 0H.06" }, this.handle);
       make("circle", { r: 0.012 }, this.handle);
       this.shown = {};
-      this.holder = this.scene.arm;
+      this.scene.hold(geometry.robot || "");
+      this.holder = this.scene.held;
       this.seat("human");
       this.pose(0, 0);
       new ResizeObserver(() => this.fit()).observe(host);
@@ -87,7 +88,7 @@
     // A person holds the far end, or the robot does.
     company(person) {
       this.scene.svg.classList.toggle("far-person", person);
-      this.holder = person ? this.far : this.scene.arm;
+      this.holder = person ? this.far : this.scene.held;
       this.holder.pose(this.shown.robot);
     }
 
