@@ -15,6 +15,7 @@ from colift.agents.plugins import class_fault
 from colift.agents.registry import (
     HUMANS,
     POLICIES,
+    ROBOTS,
     SUITES,
     TASKS,
     called,
@@ -36,7 +37,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-SECTIONS: Final = ("policies", "behaviours", "subjects", "suites", "tasks", "channels")
+SECTIONS: Final = ("policies", "behaviours", "subjects", "suites", "tasks", "robots", "channels")
 """What 'colift list' lists, each by the word that lists it alone."""
 
 Section = tuple[str, list[tuple[str, Text]]]
@@ -60,7 +61,7 @@ def list_all(
         ),
     ] = None,
 ) -> None:
-    """List policies, human behaviours, subjects, suites, tasks and channels, one line each.
+    """List policies, human behaviours, subjects, suites, tasks, robots and channels, one line each.
 
     Exit code 1 if one of them cannot be loaded; its line gives the reason.
     """
@@ -101,6 +102,8 @@ def _sections(word: str, broken: list[str]) -> Iterator[Section]:
             yield "Suites", _registered(SUITES, entries(SUITES), broken)
         case "tasks":
             yield "Tasks", _registered(TASKS, entries(TASKS), broken)
+        case "robots":
+            yield "Robots", _registered(ROBOTS, entries(ROBOTS), broken)
         case "channels":
             yield "Channels", [(name, Text(str(each))) for name, each in CHANNELS.items()]
 

@@ -24,6 +24,9 @@ PAUSE: Final = Pause(length=(2.0, 2.0), lowering_probability=0.0)
 LONG_PAUSE: Final = Pause(length=(8.0, 8.0), lowering_probability=0.0)
 """Long enough for the slowest confidence of figure 7 to settle."""
 
+TORQUE_ROBOT: Final = "iiwa"
+"""The torque-controlled arm that is compared with the NAO."""
+
 REACTIVE: Final = PolicySpec(text="reactive")
 BLEND: Final = watched_blend()
 
@@ -35,6 +38,7 @@ class Effort:
     pause: int = 10
     rest: int = 4
     jerky: int = 10
+    torque: int = 10
     forgetting: int = 4
     timing: int = 2
     periods: tuple[float, ...] = (0.02, 0.05, 0.1)
@@ -56,6 +60,16 @@ class TimingSetting:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class TorqueRuns:
+    """Runs with :data:`TORQUE_ROBOT`."""
+
+    reactive: Run
+    """Without prediction."""
+    blend: Run
+    """With prediction."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Evidence:
     """The runs behind the report; lifts of the blend policy are watched."""
 
@@ -74,6 +88,8 @@ class Evidence:
     jerky_reactive: Run
     jerky_blend: Run
     """Lifts in irregular submovements."""
+    torque: "TorqueRuns"
+    """Some of Table I's lifts with a torque-controlled arm instead of the NAO."""
     forgetting: Mapping[float, Run]
     """Some of Table I's lifts with prediction, by forgetting factor."""
     timing: Mapping[TimingSetting, Run]
@@ -113,6 +129,7 @@ def collect_evidence(
     blend = run(BLEND, suite)
     jerky = behaving(suite, "jerky", Jerky(), effort.jerky)
     some = first_seeds(suite, effort.forgetting)
+    other_robot = first_seeds(suite, effort.torque).with_robot(TORQUE_ROBOT)
     timings = [
         TimingSetting(policy=policy, control_period=period, latency=latency)
         for policy, period, latency in itertools.product(
@@ -128,6 +145,7 @@ def collect_evidence(
         rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
         jerky_reactive=run(REACTIVE, jerky),
         jerky_blend=run(BLEND, jerky),
+        torque=TorqueRuns(reactive=run(REACTIVE, other_robot), blend=run(BLEND, other_robot)),
         forgetting={phi: run(watched_blend(phi), some) for phi in FORGETTING_FACTORS},
         timing={
             timing: run(
@@ -152,6 +170,7 @@ def lift_count(suite: Suite, effort: Effort | None = None) -> int:
         (1, effort.pause),
         (1, effort.rest),
         (2, effort.jerky),
+        (2, effort.torque),
         (len(FORGETTING_FACTORS), effort.forgetting),
         (settings, effort.timing),
     )

@@ -32,6 +32,7 @@ from colift.benchmark.paper.topics.performance import (
 from colift.benchmark.paper.topics.prediction import prediction_claims, prediction_exhibit
 from colift.benchmark.paper.topics.table import table_claims, table_exhibit
 from colift.benchmark.paper.topics.timing import timing_claims, timing_exhibit, timing_results
+from colift.benchmark.paper.topics.torque import torque_claims
 from colift.benchmark.paper.watched import SampledLift
 
 PAGES: Final = ("report.html", "report.md", "claims.json")
@@ -150,5 +151,6 @@ def all_claims(evidence: Evidence, table: TableOne) -> list[Claim]:
         *forgetting_claims(evidence.rests, evidence.pauses, evidence.forgetting),
         *table_claims(table),
         *performance_claims(evidence),
+        *torque_claims(evidence),
         *timing_claims(evidence.timing),
     ]

@@ -1,7 +1,7 @@
 """A KUKA LBR iiwa at the far end: seven torque-controlled joints, the model that PyBullet ships.
 
-The paper speculates that robots that are "velocity or torque-controlled ... would yield smoother
-motions and offer better improvements" than the NAO's servos (section V.A).
+The paper speculates that "sophisticated velocity or torque controlled robots would yield smoother
+motions and offer better improvements in performance" than the NAO (section V.A).
 """
 
 import math

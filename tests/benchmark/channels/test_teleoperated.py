@@ -18,6 +18,7 @@ from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from colift.benchmark.suites.suite import make_suite
+from colift.robots.nao.kinematics import STROKE
 
 SUITE = make_suite("quick-v1").with_seeds(3, 4)
 ONE = dataclasses.replace(SUITE, scenarios=SUITE.scenarios[:1])
@@ -60,7 +61,7 @@ def commands(episode):
     """Return the command before each step, and after the last."""
     found = [0.0]
     for [action] in episode.trace.action.tolist():
-        found.append(limited_command(SCALARS, found[-1], action, 0.04))
+        found.append(limited_command(SCALARS, found[-1], action, 0.04, STROKE))
     return found
 
 

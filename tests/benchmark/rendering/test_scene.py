@@ -3,12 +3,13 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from colift.agents.errors import InputError
+from colift.agents.registry import ROBOTS, own_entries
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.episode.recorder import Recorder
-from colift.benchmark.episode.seat import SEATS, NaoSeat
 from colift.benchmark.rendering.bodies import shown_body
 from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
 from colift.benchmark.rendering.style import HUMAN, ROBOT, SKY
+from colift.benchmark.robots.robot import make_robot
 from PIL import ImageColor
 
 PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))
@@ -89,20 +90,12 @@ def test_who_holds_an_end_wears_its_colour() -> None:
     assert amount(with_person, ROBOT) > amount(with_robot, ROBOT) + 100
 
 
-class Crane(NaoSeat):
-    """A robot of another package, with a body of its own."""
-
-    body = SEATS["human"].body
-
-
-def test_a_robot_without_a_picture_is_replaced_by_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("colift.benchmark.rendering.bodies.SEATS", {**SEATS, "crane": Crane()})
-    assert [shown_body(name) for name in ("nao", "human", "live", "crane", "nonesuch")] == [
-        "nao",
+def test_a_robot_without_a_picture_is_replaced_by_words() -> None:
+    assert shown_body("nao") == make_robot("nao")
+    assert [shown_body(name) for name in ("human", "live", "nonesuch")] == [
         "person",
         "person",
-        "unknown",
-        "unknown",
+        None,
     ]
     pictures = {}
     for name in ("nao", "crane", "derrick"):
@@ -115,6 +108,20 @@ def test_a_robot_without_a_picture_is_replaced_by_words(monkeypatch: pytest.Monk
     # The names differ, and so do the words; all else is the same.
     words = (pictures["crane"] != pictures["derrick"]).any(axis=-1)
     assert 0 < words.sum() < 1000
+
+
+@pytest.mark.parametrize("name", own_entries(ROBOTS))
+def test_a_robot_s_hand_is_drawn_at_the_table_s_end(name: str) -> None:
+    """At both ends of its stroke, where its own colours are, and not elsewhere."""
+    pictures = []
+    robot = make_robot(name)
+    for height in robot.stroke:
+        scene = Scene(name)
+        scene.pose(height, height)
+        pictures.append(scene.picture(320, 200))
+        scene.close()
+    moved = (pictures[0] != pictures[1]).any(axis=-1)
+    assert moved[:, :160].sum() > 300
 
 
 def test_a_real_person_at_the_robots_end_is_drawn_as_a_person() -> None:

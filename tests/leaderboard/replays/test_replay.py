@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.episode.seat import hand_commands
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import play
 from colift.benchmark.results.baselines import human_human_run
@@ -61,7 +60,7 @@ def test_commands_are_those_of_the_episode():
         lift.step(np.zeros(10), np.array([action]))
         seen.append(lift.command)
     lift.close()
-    assert hand_commands(with_wild_actions, SCENARIO.control_period) == pytest.approx(
+    assert SCENARIO.seat.hand_commands(with_wild_actions, SCENARIO.control_period) == pytest.approx(
         seen, abs=1e-12
     )
 
