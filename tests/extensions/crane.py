@@ -19,7 +19,8 @@ MODEL = """<robot name="crane">
   </visual></link>
   <link name="hook"><visual><geometry><sphere radius="0.05"/></geometry></visual></link>
   <joint name="hoist" type="prismatic"><parent link="mast"/><child link="hook"/>
-    <origin xyz="0.1 0 0.5"/><axis xyz="0 0 1"/><limit lower="-1" upper="1" effort="1" velocity="1"/>
+    <origin xyz="0.1 0 0.5"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>"""
 
