@@ -1,17 +1,19 @@
 """Control of the hand by a recurrent network of sight and touch, and its file of weights."""
 
 import io
+import math
 import zipfile
+from collections.abc import Mapping
 from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import network_of
 from colift.agents.errors import InputError
-from colift.agents.registry import TASKS, entries, lookup
+from colift.agents.observations import BALL_SENSES, HURDLE_SENSES
 from colift.agents.senses import Sense
 from colift.agents.touch.touch_law import (
     TouchNetwork,
@@ -19,6 +21,13 @@ from colift.agents.touch.touch_law import (
     inputs_of,
     touch_at_rest,
 )
+
+STATED: Final[Mapping[str, tuple[Sense, ...]]] = {
+    "intent": (),
+    "agree": HURDLE_SENSES,
+    "ball": BALL_SENSES,
+}
+"""The senses of tasks whose weights need not state their scales."""
 
 
 class TouchController:
@@ -81,21 +90,33 @@ def touch_network(arrays: Any, source: str) -> TouchNetwork:
     if "task" not in arrays:
         raise InputError(f"{source}: not the weights of a policy by touch: task is missing")
     task = str(arrays["task"])
-    senses = senses_of(task, source)
+    senses = senses_of(task, arrays, source)
     return TouchNetwork(task, senses, network_of(arrays, source, inputs_of(senses)))
 
 
-def senses_of(task: str, source: str) -> tuple[Sense, ...]:
-    """Return the senses of a task with touch besides sight and touch.
+def senses_of(task: str, arrays: Any, source: str) -> tuple[Sense, ...]:
+    """Return the senses of a task besides sight and touch, as far as a network needs them.
+
+    Weights state their ``scales``, a row with scale and rate for each sense. Those of colift's own
+    tasks may leave them out.
 
     Raises
     ------
     InputError
-        If there is no such task, or it has no touch.
+        If they are missing, of a wrong shape or not finite.
     """
-    if task not in entries(TASKS):
-        raise InputError(f"{source}: task must be one of {', '.join(entries(TASKS))}, got {task!r}")
-    made: Any = lookup(TASKS, task)
-    if not getattr(made, "touch", False):
-        raise InputError(f"{source}: the task {task!r} has no touch")
-    return tuple(made.senses)
+    if "scales" not in arrays:
+        if task in STATED:
+            return STATED[task]
+        raise InputError(
+            f"{source}: task must be one of {', '.join(STATED)}, or scales be stated; got {task!r}"
+        )
+    scales = np.asarray(arrays["scales"])
+    if scales.ndim != 2 or scales.shape[1] != 2 or scales.dtype.kind not in "fiu":
+        raise InputError(f"{source}: scales must have the shape (k, 2), got {scales.shape}")
+    if not np.isfinite(scales).all():
+        raise InputError(f"{source}: scales has numbers that are not finite")
+    return tuple(
+        Sense("", -math.inf, math.inf, "", scale=scale, rate=rate)
+        for scale, rate in scales.astype(np.float64).tolist()
+    )

@@ -18,12 +18,12 @@ from colift.benchmark.environment.settings import (
     observation_space,
 )
 from colift.benchmark.environment.state import state_space, true_state
-from colift.benchmark.episode.kept_world import next_lift
 from colift.benchmark.episode.level import LEVEL as LEVEL_TASK
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.rendering.scene import Scene, check_render_mode
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.worlds import lift_after
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
@@ -166,7 +166,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         info: dict[str, Any] = {}
         if self._drawing is not None:
             scenario, seed = self._drawing.lift(seed)
-            self.lift = next_lift(self.lift, scenario)
+            self.lift = lift_after(self.lift, scenario)
             info = {"scenario": scenario.name, "seed": seed}
         self.lift.reset(seed)
         self._begun = True

@@ -16,10 +16,11 @@ from colift.benchmark.channels import Channel
 from colift.benchmark.channels.teleoperated import teleoperated
 from colift.benchmark.episode.blame import blaming_plugins, check_episode, check_start
 from colift.benchmark.episode.episode import Episode, run_episode
-from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.kept_world import drop_kept_world
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.hidden import keyed
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.worlds import played_lift
 
 SEEDS_PER_BATCH: Final = 5
 """Seeds of one scenario that a worker plays at a time: few enough for visible progress."""
@@ -77,7 +78,7 @@ def play(
         policy = policy.paced(scenario.control_period)
     with contextlib.ExitStack() as kept:
         with blaming_plugins(scenario, seeds[0]):
-            lift = kept.enter_context(lift_in_kept_world(scenario))
+            lift = kept.enter_context(played_lift(scenario))
             check_start(lift, seeds[0])
         for seed in seeds:
             with contextlib.ExitStack() as stack:

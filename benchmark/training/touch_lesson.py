@@ -108,7 +108,8 @@ class TouchLesson:
     def weights(self, network: GatedNetwork) -> Weights:
         """Return the arrays of the policy's file of weights."""
         arrays = {name: np.asarray(array) for name, array in network._asdict().items()}
-        return {**arrays, "task": np.array(self.task)}
+        scales = [(sense.scale, sense.rate) for sense in self.twin.task.senses]
+        return {**arrays, "task": np.array(self.task), "scales": np.array(scales).reshape(-1, 2)}
 
     def about(self, settings: ApgSettings) -> tuple[str, str]:
         """Return the manifest's ``description`` and ``trained_on``."""

@@ -2,7 +2,9 @@
 
 import contextlib
 from collections.abc import Callable, Mapping
-from typing import Any, Final, NamedTuple
+from contextlib import AbstractContextManager
+from importlib import import_module
+from typing import Any, Final, NamedTuple, cast
 
 import jax
 import jax.numpy as jnp
@@ -78,6 +80,14 @@ def drawn_arrays(lift: Lift) -> Drawn[Any]:
     )  # fmt: skip
 
 
+def double_precision() -> AbstractContextManager[Any]:
+    """Return a context in which JAX computes in double precision, in old and new versions."""
+    if hasattr(jax, "enable_x64"):
+        return cast(AbstractContextManager[Any], jax.enable_x64(True))
+    before: Any = import_module("jax.experimental")
+    return cast(AbstractContextManager[Any], before.enable_x64())
+
+
 class Rules(NamedTuple):
     """The rules of a task and its person as functions of arrays, with the same of numbers."""
 
@@ -136,7 +146,7 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
         difference = np.ravel(np.asarray(one, float)) - np.ravel(np.asarray(other, float))
         worst.append(float(np.abs(difference).max(initial=0.0)))
 
-    with contextlib.closing(Lift(scenario)) as lift, jax.enable_x64(True):
+    with contextlib.closing(Lift(scenario)) as lift, double_precision():
         lift.reset(seed)
         task, person = lift.task, lift.task.person
         assert isinstance(task, Touch)

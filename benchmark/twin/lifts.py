@@ -68,6 +68,17 @@ def check_modelled(scenario: Scenario) -> None:
     if scenario.partner not in MODELLED:
         known = " and ".join(map(repr, MODELLED))
         raise InputError(f"the twin models the partners {known}, not {scenario.partner!r}")
+    check_people(scenario)
+
+
+def check_people(scenario: Scenario) -> None:
+    """Check that people are scripted, and no older sample is needed than the twin keeps.
+
+    Raises
+    ------
+    InputError
+        If not.
+    """
     if isinstance(scenario.human, Embodied):
         raise InputError(
             f"the twin models scripted people only; {scenario.behaviour!r} brings its own"

@@ -7,7 +7,6 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.errors import InputError
-from colift.agents.humans import Embodied
 from colift.agents.humans.hand import drawn_noise
 from colift.agents.rules import Drawn
 from colift.benchmark.episode.lift import lasting
@@ -17,8 +16,9 @@ from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.episode.sensing import drawn_errors
 from colift.benchmark.tasks.ball.task import BALL
 from colift.benchmark.tasks.touch import FINER, Touch
-from colift.benchmark.twin.body import DEPTH, Body, bodies
+from colift.benchmark.twin.body import Body, bodies
 from colift.benchmark.twin.columns import LiftSeries, columns
+from colift.benchmark.twin.lifts import check_people
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ def check_twin(scenario: Scenario) -> None:
     Raises
     ------
     InputError
-        If it models the task, the holder of the far end, the behaviour or the latency not.
+        If the task, the holder of the far end, the behaviour or the latency is not modelled.
     """
     task = scenario.task
     if not isinstance(task, Touch) or type(task).world is not Touch.world:
@@ -85,15 +85,7 @@ def check_twin(scenario: Scenario) -> None:
         raise InputError(f"the twin models the ball {BALL}, not {task.rolling}")
     if scenario.partner != "nao":
         raise InputError(f"the twin of {task.name!r} models a NAO, not {scenario.partner!r}")
-    if isinstance(scenario.human, Embodied):
-        raise InputError(
-            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
-        )
-    if scenario.latency_frames >= DEPTH:
-        raise InputError(
-            f"the twin keeps {DEPTH - 1} frames of the past, a latency of {scenario.latency} s "
-            "needs more"
-        )
+    check_people(scenario)
 
 
 def draw_touch(scenario: Scenario, seed: int) -> DrawnTouch:

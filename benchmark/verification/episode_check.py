@@ -11,7 +11,7 @@ from colift.benchmark.bundle.files import EPISODES, MANIFEST, TRACES
 from colift.benchmark.channels import Channel
 from colift.benchmark.episode.blame import blaming_plugins
 from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.kept_world import drop_kept_world
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.replay import ReplayError, replay
@@ -19,6 +19,7 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import SEEDS_PER_BATCH
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.worlds import played_lift
 from colift.benchmark.verification.channel_check import channel_fault
 from colift.benchmark.verification.deviation import Place, beyond_tolerance, first_difference
 from colift.benchmark.verification.far_hand import far_actions
@@ -62,7 +63,7 @@ class EpisodeCheck:
 
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
-        with lift_in_kept_world(self.scenario) as lift:
+        with played_lift(self.scenario) as lift:
             for claim in zip(self.places, self.seeds, self.episodes, strict=True):
                 with blaming_plugins(self.scenario, claim[1]):
                     checked = _check(lift, *claim, self.channel, same_platform=self.same_platform)

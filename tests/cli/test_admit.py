@@ -7,7 +7,10 @@ import pytest
     ("arguments", "words"),
     [
         (["intent-v1", "--pairs", "1"], "--pairs must be 2 to 20, or 0 for none; got 1"),
-        (["standard-v1", "--pairs", "2"], "pairs can be trained for intent"),
+        (
+            ["standard-v1", "--pairs", "2"],
+            "pairs can be trained for tasks with touch; 'level' has none",
+        ),
         (["nothing"], "unknown suite 'nothing'"),
     ],
 )

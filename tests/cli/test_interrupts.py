@@ -12,18 +12,18 @@ import pytest
 
 INTERRUPTED = """
 import signal
-from colift.agents.humans import ScriptedHuman
+from colift.benchmark.episode.lift import Scripted
 from colift.cli.main import main
 
 steps = iter(range(10**6))
-act = ScriptedHuman.act
+references = Scripted.references
 
-def interrupted(human, observation):
+def interrupted(human):
     if next(steps) == 30:
         signal.raise_signal(signal.SIGINT)
-    return act(human, observation)
+    return references(human)
 
-ScriptedHuman.act = interrupted
+Scripted.references = interrupted
 main()
 """
 """A command that is interrupted in the middle of its first lift, as by Ctrl-C."""

@@ -46,7 +46,7 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
         (["train", "ppo", "--out", "x", "--pool", "8"], "lifts must be at most pool, 8, got 512"),
         (["train", "self-play", "--out", "x", "--haste", "0"], "haste must be above 0, got 0.0"),
         (["train", "co-play", "--out", "x", "--population", "0"], "population must be 1 to 100"),
-        (["train", "apg", "--out", "x", "--task", "tea"], "--task must be one of level, intent"),
+        (["train", "apg", "--out", "x", "--task", "tea"], "unknown task 'tea'; known: "),
         (["train", "cem", "--out", "/dev/null"], "cannot use /dev/null"),
         (["train", "cem", "--out", "x", "--jobs", "0"], "jobs must be at least 1, got 0"),
     ],

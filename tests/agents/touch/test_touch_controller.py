@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.errors import InputError
+from colift.agents.observations import BALL_SENSES
 from colift.agents.observations import HapticObservation as Seen
 from colift.agents.touch.touch import TABLE_LENGTH
 from colift.agents.touch.touch_controller import TouchController, read_touch, touch_network
 from colift.agents.touch.touch_law import AHEAD, REACH, TouchNetwork, inputs_of
 from colift.benchmark.suites.catalogue import make_task
 from colift.testing import check_policy
+
+BALL_SCALES = np.array([(each.scale, each.rate) for each in BALL_SENSES])
 
 
 def weights(task="intent", units=2, bias=0.0):
@@ -55,8 +58,12 @@ def test_the_file_names_the_task(tmp_path, task):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"task": np.array("level")}, "the task 'level' has no touch"),
-        ({"task": np.array("lifting")}, "task must be one of agree, .*, got 'lifting'"),
+        (
+            {"task": np.array("level")},
+            "task must be one of intent, agree, ball, or scales be stated; got 'level'",
+        ),
+        ({"scales": np.zeros(3)}, r"scales must have the shape \(k, 2\), got \(3,\)"),
+        ({"scales": np.full((1, 2), np.nan)}, "scales has numbers that are not finite"),
         ({"memory": np.zeros((6, 0))}, "1 to 4096 units"),
         ({"bias": np.zeros(5)}, r"bias must have the shape \(6,\), got \(5,\)"),
         ({"output_bias": np.array([np.nan])}, "output_bias has numbers that are not finite"),
@@ -86,3 +93,10 @@ def test_weights_that_name_no_task_are_refused():
     del arrays["task"]
     with pytest.raises(InputError, match="task is missing"):
         touch_network(arrays, "made up")
+
+
+def test_weights_of_another_package_s_task_state_the_scales_of_its_senses():
+    stated = {**weights("ball"), "task": np.array("hint"), "scales": BALL_SCALES}
+    learned, ours = touch_network(stated, "made up"), touch_network(weights("ball"), "made up")
+    assert learned.expected == ours.expected
+    assert np.array_equal([(each.scale, each.rate) for each in learned.senses], BALL_SCALES)

@@ -1,13 +1,17 @@
 """One world for many scenarios: the bits of a new one, and none is left over."""
 
+import dataclasses
 import pickle
+from dataclasses import dataclass, field
 
+import numpy as np
 import pytest
 from colift.agents.errors import EvaluatorFault
 from colift.agents.loading.loading import PolicySpec
 from colift.benchmark.episode import kept_world
 from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
+from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
@@ -57,3 +61,29 @@ def test_an_error_leaves_no_world():
 def test_a_run_leaves_no_world():
     run_suite(COPY, make_suite("quick-v1"))
     assert kept_world._kept == []
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stiffer(Level):
+    """A task whose worlds change the person."""
+
+    def world(self, human, far_end, *, physics=None):
+        human = dataclasses.replace(human, stiffness=2 * human.stiffness)
+        return super().world(human, far_end, physics=physics)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Weighted(Level):
+    """A task with a parameter that cannot be compared as one."""
+
+    weights: object = field(default_factory=lambda: np.ones(2))
+
+
+@pytest.mark.parametrize("task", [Stiffer(), Weighted()])
+def test_a_task_that_makes_its_worlds_itself_has_a_new_one_for_each_person(task):
+    for name in ("S1", "S4"):
+        scenario = dataclasses.replace(make_scenario("smooth", name), task=task)
+        found = next(play(COPY, scenario, (0,)))
+        assert kept_world._kept == []
+        with COPY.agent() as agent:
+            assert bits(found) == bits(run_episode(Lift(scenario), agent, 0))

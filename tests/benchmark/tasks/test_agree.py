@@ -29,7 +29,7 @@ from colift.benchmark.tasks.agree.scores import (
 from colift.benchmark.tasks.agree.task import Agree
 from colift.testing import check_suite, check_task
 
-DIGEST = "0489946c9994f505"
+DIGEST = "aa00b4175cbb0feb"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 

@@ -24,7 +24,7 @@ from colift.benchmark.tasks.ball.scores import (
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
 from colift.testing import check_suite, check_task
 
-DIGEST = "86ed05445aa13789"
+DIGEST = "dc806015ca022c7e"
 SEED = 100_000
 
 

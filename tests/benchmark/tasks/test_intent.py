@@ -19,7 +19,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.scores import peak_mm, pose_rmse_mm, settling_ms
 
-DIGEST = "bfe09cb146133f77"
+DIGEST = "5b0fd8761292d882"
 SEED = 100_000
 
 
