@@ -1,4 +1,4 @@
-"""Conformance checks for policies, human behaviours, tasks and suites, for use in any test suite.
+"""Conformance checks for policies, behaviours, robots, tasks and suites, for use in any test suite.
 
 Each raises an AssertionError that states the violated rule. Everything that colift registers
 passes them.
@@ -32,7 +32,10 @@ from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.replay import replay
+from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.episode.task import Task
+from colift.benchmark.robots.conformance import robot_conformance_fault
+from colift.benchmark.robots.robot import Robot
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, plain_name
 
@@ -173,6 +176,19 @@ def _check_plan(plan: Plan, which: str) -> None:
     _require(bool(moving.any()), f"{which}: there must be a stroke")
     _require(not resting.size or resting.max() <= 0.02, f"{which}: it moves outside its strokes")
     _require(not target.flags.writeable, f"{which}: the target must be read-only")
+
+
+def check_robot(robot: Robot) -> None:
+    """Check a robot by letting it hold the table with a person.
+
+    It must be a frozen dataclass with all that a robot has; hold the table within 20 mm of the
+    commanded height; repeat itself bit for bit after a reset; and its postures must move joints of
+    its model.
+    """
+    title = f"robot {place_of(robot)}"
+    with _asserting(title, type(robot)):
+        fault = robot_conformance_fault(robot, body_parameters(SUBJECTS["S3"]))
+    _require_none(fault, title)
 
 
 def check_task(task: Task, behaviour: str = "smooth") -> None:
