@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Final, Protocol, Self, runtime_checkable
 
 from colift.agents.agent import Agent
-from colift.agents.threads import one_thread
 from colift.agents.traced import traced
+from colift.base.threads import one_thread
 
 AUTO: Final = "auto"
 """Isolation of colift's own policies in this process, and of others in the strongest sandbox."""
@@ -19,7 +19,7 @@ NONE: Final = "none"
 class AgentSpec(Protocol):
     """The specification of the agent at the robot's end; picklable, as worker processes need it.
 
-    :class:`colift.agents.loading.loading.PolicySpec` is one.
+    :class:`colift.agents.loading.policy_spec.PolicySpec` is one.
     """
 
     @property

@@ -5,10 +5,10 @@ from typing import Annotated
 
 import numpy as np
 import typer
-from colift.agents.errors import InputError
-from colift.benchmark.admission.admission import Admission, admission_of, players
+from colift.base.errors import InputError
+from colift.benchmark.admission.assessment import Admission, admission_of, players
 from colift.benchmark.admission.criteria import Criterion
-from colift.benchmark.bounds.bounds import suite_bounds
+from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.execution.progress import job_bar, workers
 from colift.benchmark.results.baselines import shipped_bounds
 from colift.benchmark.tables.printing import left, show, table

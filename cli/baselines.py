@@ -4,8 +4,8 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.bounds.bounds import suite_bounds
+from colift.base.registry import SUITES, own_entries
+from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import play_bounds
 from colift.benchmark.execution.progress import workers

@@ -7,10 +7,9 @@ from functools import partial
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import playing
-from colift.benchmark.episode.level import LEVEL
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.base.registry import playing
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.progress import job_bar, progress_bar
 from colift.benchmark.profiling.bars import FIGURES, missed
@@ -29,6 +28,7 @@ from colift.benchmark.profiling.sandbox import (
 )
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import Cell, left, show, table
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.twin.libraries import require_jax
 from colift.benchmark.world import Physics
 from colift.cli.completion import suites

@@ -10,9 +10,9 @@ from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, opened_bo
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive
 from colift.cli.tables.board import board_table
-from colift.leaderboard.backup.backup import Backup, back_up
 from colift.leaderboard.backup.restoring import restore
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.backup.writing import Backup, back_up
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.practice.season_import import open_to_read
 from colift.leaderboard.queue import Queue

@@ -10,10 +10,10 @@ from typing import Annotated, Final
 
 import sqlalchemy as sa
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.sandbox.host.levels import VERIFIABLE
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.database.database import DatabaseAwayError
+from colift.base.errors import EvaluatorFault, InputError
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.database.connection import DatabaseAwayError
 from colift.leaderboard.database.room import NoRoomError, is_full
 from colift.leaderboard.evaluation.entrant import NoSandboxError, board_level
 from colift.leaderboard.practice.season_import import open_with_practice

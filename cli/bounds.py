@@ -4,15 +4,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.bounds import ablation, sweep
 from colift.benchmark.bounds.ablation import VARIANTS, Ablation, variants
-from colift.benchmark.bounds.bounds import BOUNDS
+from colift.benchmark.bounds.catalogue import BOUNDS
 from colift.benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from colift.benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
-from colift.benchmark.comparison.comparison import compare
+from colift.benchmark.comparison.compare import compare
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL

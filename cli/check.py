@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import InputError
 from colift.agents.spec import AUTO, NONE, AgentSpec
 from colift.agents.submissions import from_file
 from colift.agents.submissions.choice import auto_level, usable_level
@@ -15,6 +14,7 @@ from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.new import AUTHOR, DESCRIPTION, check_author, template
 from colift.agents.submissions.packages import undeclared
 from colift.agents.submissions.submission import Submission, open_submission
+from colift.base.errors import InputError
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.suites.suite import Suite, make_suite

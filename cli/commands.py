@@ -9,7 +9,7 @@ from itertools import dropwhile
 from typing import Any, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.cli.loading import Loading
 from typer.core import TyperCommand, TyperGroup
 

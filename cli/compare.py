@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.registry import POLICIES, check_plays, entries, playing
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
-from colift.benchmark.bounds.bounds import suite_bounds
+from colift.base.errors import InputError
+from colift.base.registry import POLICIES, check_plays, entries, playing
+from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.bundle import is_bundle
 from colift.benchmark.channels import Channel
 from colift.benchmark.comparison.captions import failures, goals, unit_warnings, verdict
-from colift.benchmark.comparison.comparison import Comparison
-from colift.benchmark.comparison.comparison import compare as compared
+from colift.benchmark.comparison.compare import Comparison
+from colift.benchmark.comparison.compare import compare as compared
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.playing import Bound, episodes_to_play, play_policies

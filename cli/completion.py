@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from colift.agents.registry import HUMANS, POLICIES, ROBOTS, SUITES, entries
+from colift.base.registry import HUMANS, POLICIES, ROBOTS, SUITES, entries
 from colift.benchmark.channels import CHANNELS
 
 

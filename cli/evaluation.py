@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import Final
 
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.registry import check_plays
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.agents.submissions.hints import board_remarks
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.registry import check_plays
 from colift.benchmark.bundle import (
     Results,
     check_bundle_folder,

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import Bundle, one_line, read_bundle
 from colift.benchmark.execution.pool import checked_jobs
 from colift.benchmark.execution.progress import workers
@@ -18,7 +18,7 @@ from colift.benchmark.export.observing import spaces
 from colift.benchmark.export.provenance import VIEWS, Provenance, of_scenario
 from colift.benchmark.export.proving import proved_lifts
 from colift.benchmark.export.rules import CONVERTED, NAMES, RULES, digest, rule
-from colift.benchmark.live.session import is_session
+from colift.benchmark.real_lifts.session_folder import is_session
 from colift.benchmark.suites.suite import Suite, recorded_suite
 from colift.benchmark.tables.printing import counted, show
 from colift.cli.bundles import mention_others

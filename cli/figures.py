@@ -7,7 +7,7 @@ from textwrap import shorten
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.figures.making import FigureStatus, remake, statuses
 from colift.benchmark.figures.registry import clone_folder
 from colift.benchmark.tables.printing import left, show, table

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import typer
 from colift.agents.control.anticipation import Anticipation, anticipation_json
 from colift.agents.control.learned_task import task_json
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.execution.pool import checked_jobs
 from colift.benchmark.execution.progress import progress_bar, workers

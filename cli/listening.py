@@ -7,7 +7,7 @@ from types import FrameType
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 Host = Annotated[
     str,

@@ -6,13 +6,17 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import InputError, Remedy
 from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.loading.description import ParameterText, described
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.near_names import near_names
-from colift.agents.plugins import class_fault
-from colift.agents.registry import (
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.agents.sandbox.host.policy import SandboxedPolicy
+from colift.agents.submissions.choice import choose_policy
+from colift.agents.submissions.manifest import MANIFEST, Manifest
+from colift.agents.submissions.submission import read_submission
+from colift.base.errors import InputError, Remedy
+from colift.base.near_names import near_names
+from colift.base.plugins import class_fault
+from colift.base.registry import (
     HUMANS,
     POLICIES,
     ROBOTS,
@@ -24,10 +28,6 @@ from colift.agents.registry import (
     policies_by_task,
     summary,
 )
-from colift.agents.sandbox.host.policy import SandboxedPolicy
-from colift.agents.submissions.choice import choose_policy
-from colift.agents.submissions.manifest import MANIFEST, Manifest
-from colift.agents.submissions.submission import read_submission
 from colift.benchmark.channels import CHANNELS
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
 from colift.cli.completion import behaviours, channels, policies, robots, suites
@@ -159,7 +159,7 @@ def chosen_suite(
         raise InputError("--seeds and --recordings exclude each other: a recording has no seed")
     if name is not None:
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
-    from colift.benchmark.live.scenarios import real_lifts
+    from colift.benchmark.real_lifts.suites import real_lifts
 
     lifts = real_lifts(recordings)
     report_left_out(recordings.name, lifts.left_out)

@@ -3,14 +3,14 @@
 import sys
 from collections.abc import Mapping
 
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import other_task, playing, summary
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.choice import checked_policy, choose_policy
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.registry import other_task, playing, summary
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import LEVEL
 
 FIRST = "anticipate"
 """The default partner."""

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
 from colift.agents.spec import AUTO
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.robots.robot import ROBOT, make_robot
 from colift.cli.completion import policies
 from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
@@ -66,8 +66,8 @@ def play(
     'colift verify' verifies the saved lifts, 'colift run POLICY --recordings' plays them again.
     """
     try:
-        from colift.leaderboard.live.keeper import PlayConfig
-        from colift.leaderboard.live.processes import keep_serving
+        from colift.live.web.keeper import PlayConfig
+        from colift.live.web.processes import keep_serving
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"

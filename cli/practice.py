@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.registry import own_policies
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.registry import own_policies
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.tables.printing import show, table
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Dask, Jobs, executor
-from colift.leaderboard.evaluation.evaluation import episode_count, play_human_human
+from colift.leaderboard.evaluation.evaluate import episode_count, play_human_human
 from colift.leaderboard.evaluation.progress import Callbacks
-from colift.leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
+from colift.leaderboard.practice.season import SUITES, is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import PlayedSeason
 from colift.leaderboard.records.season import Season
 from rich.table import Table

@@ -4,7 +4,7 @@ import sys
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
+from colift.base.errors import EvaluatorFault, InputError
 from colift.cli.commands import Commands
 from colift.cli.document import begin, print_json_error
 from colift.cli.loading import INTERRUPTED

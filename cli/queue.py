@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.tables.printing import left, show, table
 from colift.cli.board_options import BOARD, ExistingBoard, Why, opened_board
-from colift.leaderboard.board.board import LOCAL, Board
+from colift.leaderboard.core.board import LOCAL, Board
 from colift.leaderboard.practice.season_import import open_to_read, open_with_practice
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.job import STATES, Job

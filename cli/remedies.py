@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from typing import Final, TypeVar
 
-from colift.agents.errors import InputError, Remedy
-from colift.agents.registry import POLICIES, entries
+from colift.base.errors import InputError, Remedy
+from colift.base.registry import POLICIES, entries
 
 T = TypeVar("T")
 

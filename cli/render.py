@@ -5,12 +5,11 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.registry import check_plays
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
-from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
+from colift.base.registry import check_plays
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.batches import play
@@ -18,6 +17,7 @@ from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.robots.robot import ROBOT, make_robot
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tables.failures import printed_lines
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.cli.completion import behaviours, people
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (

@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.progress import job_bar
 from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, Why, opened_board
 from colift.cli.options import Jobs
-from colift.leaderboard.board.board import LOCAL, Board
-from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.core.board import LOCAL, Board
+from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.queue import WorkerQueue
 from colift.leaderboard.queue.worker import Worker

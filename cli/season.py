@@ -3,9 +3,9 @@
 from typing import Annotated
 
 import typer
-from colift.agents.registry import own_policies
+from colift.base.registry import own_policies
 from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
-from colift.leaderboard.board.board import LOCAL
+from colift.leaderboard.core.board import LOCAL
 from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.queue import Queue
 

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Final
 from urllib.parse import urlsplit
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
 from colift.agents.sandbox.host.levels import check_level
 from colift.agents.spec import AUTO
 from colift.agents.submissions.folder import MIB
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.execution.pool import default_jobs
 from colift.cli.board_options import (
     BOARD,
@@ -124,10 +124,10 @@ def serve_board(
 
 def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
     """Let visitors of a board lift with all policies; return the protocol of their sockets."""
-    from colift.leaderboard.live.app import create_play, mount_play
-    from colift.leaderboard.live.keeper import PlayConfig
-    from colift.leaderboard.live.processes import SmallBuffers
     from colift.leaderboard.service.dependencies import PLAY
+    from colift.live.web.app import create_play, mount_play
+    from colift.live.web.keeper import PlayConfig
+    from colift.live.web.processes import SmallBuffers
 
     named, lines = partners()
     config = PlayConfig(

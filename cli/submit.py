@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Annotated, Any, Final, NoReturn
 
 import typer
-from colift.agents.errors import InputError
 from colift.agents.submissions.manifest import MANIFEST
 from colift.agents.submissions.new import check_author
 from colift.agents.submissions.submission import Submission, open_submission
+from colift.base.errors import InputError
 from colift.benchmark.execution.pool import checked_jobs, local_pool
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
@@ -22,8 +22,8 @@ from colift.cli.completion import suites
 from colift.cli.options import Jobs
 from colift.cli.remedies import argument
 from colift.cli.tables.row import SectionRow, row_table, row_text
-from colift.leaderboard.board.board import Board
 from colift.leaderboard.client import RemoteBoard
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue

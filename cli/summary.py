@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.channels import channel_name
 from colift.benchmark.comparison.formatting import between, digits
 from colift.benchmark.comparison.stored import Stored, read_stored

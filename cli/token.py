@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 from colift.benchmark.tables.printing import show, table
 from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, opened_board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.practice.season_import import open_to_read
 
 app = typer.Typer(

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training import apg_settings, cem, ppo_settings
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary

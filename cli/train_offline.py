@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.training.course import Course
 from colift.benchmark.training.offline_data import read_data
 from colift.benchmark.training.offline_settings import CLONE, IQL, CloneSettings, IqlSettings

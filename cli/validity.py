@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import playing
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
+from colift.base.registry import playing
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.tables.printing import show
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.validity.playing import (
     Known,
     check_same_task,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
-from colift.agents.errors import EvaluatorFault, InputError
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import (
     check_bundle_folder,
     check_unfinished,
@@ -19,7 +19,7 @@ from colift.benchmark.bundle import (
 from colift.benchmark.execution.pool import checked_jobs, process_pool
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.live.session import is_session, lift_folders, sessions_in
+from colift.benchmark.real_lifts.session_folder import is_session, lift_folders, sessions_in
 from colift.benchmark.results.headline import headline
 from colift.benchmark.tables.printing import counted, show
 from colift.benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify

@@ -7,7 +7,7 @@ The mean error of two policies when motion capture arrives earlier or later than
 """
 
 import numpy as np
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.rendering.style import INK, ROBOT, style_axes
 from colift.benchmark.suites.suite import make_suite

@@ -10,7 +10,7 @@ import dataclasses
 
 import numpy as np
 from colift.agents.humans import Recorded, Recording
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.rendering.style import FAINT, HUMAN, ROBOT, style_axes
 from colift.benchmark.suites.catalogue import make_scenario

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import IO, Any, Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.storage.archive import pack_archive
 
 API: Final = "/api/v1"

@@ -100,6 +100,15 @@ def pytest_collection():
         gc.enable()
 
 
+@pytest.fixture(scope="module")
+def chromium():
+    """A browser, as long as a module needs it: its event loop keeps others from running."""
+    from .browser import browser
+
+    with browser() as opened:
+        yield opened
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_environment(tmp_path_factory):
     """Keep what is cached from the user's own; one worker is enough where tests share the cores."""

@@ -8,8 +8,8 @@ import colift
 import numpy as np
 import pytest
 from colift import colift_v0
-from colift.agents.errors import InputError
 from colift.agents.policies.blend import Blend
+from colift.base.errors import InputError
 from pettingzoo.test import api_test, parallel_api_test
 
 pytestmark = pytest.mark.smoke

@@ -5,7 +5,6 @@ import warnings
 
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
 from colift.agents.hardware.rerun import logged_commands, rerun_trial
 from colift.agents.hardware.trial_log import (
@@ -17,6 +16,7 @@ from colift.agents.hardware.trial_log import (
 )
 from colift.agents.policies.copy import Copy
 from colift.agents.submissions.manifest import read_manifest
+from colift.base.errors import InputError
 from colift.benchmark.channels.reading import read_channel
 from colift.benchmark.hardware.estimates import estimate_setup
 from colift.benchmark.suites.suite import recorded_suite

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]

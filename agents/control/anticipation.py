@@ -8,8 +8,8 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from colift.agents.agent import Observation, RobotObservation
 from colift.agents.control.learned import learned_json, load_learned, read_learned
-from colift.agents.errors import InputError
 from colift.agents.estimators.perceptron import Perceptron
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]

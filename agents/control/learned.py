@@ -6,7 +6,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 from typing import Any, TypeVar
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 Model = TypeVar("Model")
 

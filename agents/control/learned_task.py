@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from colift.agents.control.adaptive_impedance import LearnedImpedance
 from colift.agents.control.learned import learned_json, load_learned, read_learned
-from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import (
     Conditional,
     GaussianMixture,
     GaussianMixtureRegression,
 )
+from colift.base.errors import InputError
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]

@@ -4,10 +4,10 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from colift.agents.agent import Observation, RobotObservation
-from colift.agents.errors import InputError
 from colift.agents.estimators.confidence import LITERAL, Confidence, Reading, likelihood
 from colift.agents.estimators.motion_filter import MotionFilter, MotionFilterParameters, Prediction
 from colift.agents.estimators.residuals import ResidualConfidence
+from colift.base.errors import InputError
 
 ConfidenceForm = Literal["likelihood", "residuals"]
 """Form of the confidence: the paper's forgetting mean of likelihoods (eqs. 6 and 7), or the

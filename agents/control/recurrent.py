@@ -11,7 +11,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.control.portable import ArrayFunctions
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 STEPS_AHEAD: Final = 2.0
 """Control periods from the sample to the end of the next command, as in :class:`.Extrapolate`."""

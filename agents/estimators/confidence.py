@@ -3,7 +3,7 @@
 import math
 from typing import Literal
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 Reading = Literal["variance as rho", "standard deviation as rho"]
 """Reading of eq. 6. The paper calls rho "the 1-D variance" and squares it: literally the

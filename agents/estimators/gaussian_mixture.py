@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]

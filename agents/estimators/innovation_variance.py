@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import Array
 from colift.agents.estimators.minimum_jerk_process import MinimumJerkProcess
+from colift.base.errors import InputError
 
 REST_DEVIATIONS: Final = (0.001, 0.01)
 """Standard deviations of velocity [m/s] and acceleration [m/s2] of a hand at rest."""

@@ -6,9 +6,9 @@ from functools import cached_property, lru_cache
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import Array, MinimumJerkStroke, profile
 from colift.agents.estimators.minimum_jerk_search import Samples
+from colift.base.errors import InputError
 
 REFERENCE_PERIOD: Final = 0.1
 """Sample spacing to which the deviation of :class:`MinimumJerkFit` refers [s]."""

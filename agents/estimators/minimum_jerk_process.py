@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import Array
+from colift.base.errors import InputError
 
 # c4 and c5 of the quintic by v, a and j, and the powers of 1 / D that go with them.
 _BRAKING: Final = np.array([[-1.0, -0.75, -0.25], [0.6, 0.4, 0.1]])

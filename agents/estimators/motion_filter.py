@@ -6,7 +6,7 @@ from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from colift.agents.calibration import CALIBRATION
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 Matrix = NDArray[np.float64]

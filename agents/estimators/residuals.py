@@ -11,7 +11,7 @@ test's p-value as the confidence.
 import math
 from collections import deque
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 LONGEST = 100
 """Largest number of residuals in a window."""

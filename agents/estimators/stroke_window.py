@@ -4,8 +4,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import Array
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

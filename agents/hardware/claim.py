@@ -18,11 +18,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import Final, NamedTuple
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.nao.naoqi import STALE, NaoqiArm
 from colift.agents.hardware.ports import Clock, Naoqi, RobotLostError
 from colift.agents.hardware.setup import wait
 from colift.agents.hardware.stops import losses_stop
+from colift.base.errors import InputError
 
 KEY: Final = "Colift/Commander"
 """The claim's key in ALMemory."""

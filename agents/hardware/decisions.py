@@ -7,8 +7,8 @@ from typing import Protocol
 
 from colift.agents.actions import checked_action
 from colift.agents.agent import Agent, Observation
-from colift.agents.errors import error_text
 from colift.agents.hardware.stops import HoldReason
+from colift.base.errors import error_text
 
 
 @dataclass(frozen=True, kw_only=True)

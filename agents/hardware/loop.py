@@ -17,7 +17,6 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import Observation, RobotObservation
-from colift.agents.errors import InputError
 from colift.agents.hardware.conduct import Conduct
 from colift.agents.hardware.decisions import Decider, Decision
 from colift.agents.hardware.frames import UNDATED, drained
@@ -29,6 +28,7 @@ from colift.agents.hardware.stops import HoldReason, Stop, StopTrialError, losse
 from colift.agents.hardware.trial_end import TrialEnd
 from colift.agents.hardware.trial_log import Step, TrialLog
 from colift.agents.real_time import POLICY_SHARE
+from colift.base.errors import InputError
 
 DEAD_TIME: Final = 0.01
 """Mean time from a command until the hands begin to move [s]: half a cycle of ALMotion, which

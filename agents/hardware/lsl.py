@@ -8,11 +8,11 @@ capture: one channel per coordinate, with ``marker`` (or a label ``NAME_X``), ``
 from dataclasses import dataclass
 from typing import Any, Final
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.clocks import awake_or_asleep
 from colift.agents.hardware.ends import Height, MarkerEnds
 from colift.agents.hardware.missing import import_optional
 from colift.agents.hardware.ports import CaptureLostError, Sample
+from colift.base.errors import InputError
 
 RESOLVE_TIME: Final = 1.0
 """Duration of a search for streams [s]: all that answer in this time are found."""

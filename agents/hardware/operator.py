@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.stops import Stop, StopTrialError
+from colift.base.errors import InputError
 
 STOPPING: Final = tuple(
     getattr(signal, name)

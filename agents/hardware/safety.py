@@ -9,9 +9,9 @@ from typing import Final
 
 import numpy as np
 from colift.agents.actions import HAND_SPEED
-from colift.agents.errors import InputError
 from colift.agents.hardware.conduct import LARGEST_TILT
 from colift.agents.hardware.ports import ArmState, HandLimits
+from colift.base.errors import InputError
 from colift.robots.nao.kinematics import ARM_JOINTS, STROKE, arm_path
 
 JOINT_MARGIN: Final = 0.01

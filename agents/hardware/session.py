@@ -10,7 +10,6 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import Agent, RobotObservation
-from colift.agents.errors import InputError, error_text
 from colift.agents.hardware import setup
 from colift.agents.hardware.decisions import Decider, Timed
 from colift.agents.hardware.dry_run import DryArm
@@ -25,6 +24,7 @@ from colift.agents.hardware.release import release
 from colift.agents.hardware.stops import Stop, StopTrialError, losses_stop
 from colift.agents.hardware.trial_end import TrialEnd
 from colift.agents.hardware.trial_log import TrialLog
+from colift.base.errors import InputError, error_text
 
 READY: Final = 0.015
 """Largest height of an end at which a trial may begin [m]."""

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from typing import Final, NamedTuple
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.hardware.frames import drained
 from colift.agents.hardware.plausibility import in_order, seen
 from colift.agents.hardware.ports import ArmState, Clock, MotionCapture, RobotArm
 from colift.agents.hardware.safety import ASTRAY, motor_fault
 from colift.agents.hardware.stops import Stop, StopTrialError, losses_stop
 from colift.agents.real_time import LOWEST_RATE
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 REST_TIME: Final = 1.0

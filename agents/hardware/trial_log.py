@@ -15,10 +15,10 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
 from colift.agents.hardware.stops import Stop
-from colift.agents.text import decoded, read_bytes
+from colift.base.errors import InputError
+from colift.base.text import decoded, read_bytes
 
 
 class Step(NamedTuple):

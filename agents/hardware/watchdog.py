@@ -19,7 +19,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.claim import BEAT, Holder, RobotClaim, claimed, holder
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.nao.naoqi import STALE, NaoqiArm
@@ -29,6 +28,7 @@ from colift.agents.hardware.ports import RobotLostError
 from colift.agents.hardware.release import release
 from colift.agents.hardware.stops import StopTrialError
 from colift.agents.hardware.terminal import tell
+from colift.base.errors import InputError
 
 START_TIME: Final = 60.0
 """Longest time until a watchdog process is ready [s]."""

@@ -5,11 +5,11 @@ from typing import Final, Literal, NamedTuple, get_args
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.humans.movement import MovementDraw, interpolate
 from colift.agents.humans.plan import Plan, Segment, assemble, still
 from colift.agents.humans.stroke import replan
 from colift.agents.humans.subject import GOAL_RANGE, Subject
+from colift.base.errors import InputError
 
 CueKind = Literal["smooth", "pause", "changing_goal"]
 KINDS: Final[tuple[CueKind, ...]] = get_args(CueKind)

@@ -7,7 +7,7 @@ from typing import Final, Protocol, Self
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 LONGEST_DELAY: Final = 0.25

@@ -5,13 +5,13 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import profile
 from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
 from colift.agents.humans.plan import Plan, Segment, assemble, move, still
 from colift.agents.humans.recordings import LEAST_MOVEMENT, Recording
 from colift.agents.humans.stroke import stroke
 from colift.agents.humans.subject import Subject
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 PEAK: Final = 0.20

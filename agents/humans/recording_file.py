@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.humans.artefacts import fault
 from colift.agents.humans.copies import first_copy
 from colift.agents.humans.foreign_files import foreign_format
 from colift.agents.humans.recordings import COLUMNS, Recording
-from colift.agents.text import decoded, read_bytes
+from colift.base.errors import InputError
+from colift.base.text import decoded, read_bytes
 
 LARGEST: Final = 256 * 1024 * 1024
 """Largest file [bytes]: some hours at 1000 Hz."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 COLUMNS: Final = ("trial", "t_s", "z_m")
 """Columns of a file of recordings."""

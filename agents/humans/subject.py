@@ -7,7 +7,7 @@ from typing import Final, Self
 
 import numpy as np
 from colift.agents.calibration import CALIBRATION
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.robots.arithmetic import dot
 
 GOAL_RANGE: Final = (0.08, 0.285)

@@ -6,9 +6,9 @@ import itertools
 import textwrap
 from dataclasses import dataclass
 
-from colift.agents.docstrings import plain_text
 from colift.agents.loading.parameters import parameters_of
 from colift.agents.loading.values import kind, write_value
+from colift.base.docstrings import plain_text
 
 
 @dataclass(frozen=True, kw_only=True)

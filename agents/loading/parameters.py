@@ -12,9 +12,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, get_type_hints
 
-from colift.agents.errors import InputError
 from colift.agents.loading.values import kind, read_value, readable, without_none, write_value
-from colift.agents.near_names import did_you_mean
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
 
 Path = tuple[str, ...]
 """Names of an argument, of its field, of the field's field, and so on."""

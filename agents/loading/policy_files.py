@@ -4,7 +4,7 @@ import ast
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 METHODS: Final = frozenset({"reset", "act"})
 """Methods of a policy."""

@@ -5,8 +5,8 @@ import importlib.util
 import os
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 
 NAMES: Final = ("onnx", "onnxruntime")
 """The libraries."""

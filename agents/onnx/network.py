@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import LARGEST, MOST_NODES, OPERATORS, OWN_DOMAINS
 from colift.agents.onnx.batch import bind_batch, inputs_of
 from colift.agents.onnx.libraries import import_library
@@ -18,6 +17,7 @@ from colift.agents.onnx.ports import TYPES, Shape, input_port, output_port, quot
 from colift.agents.onnx.signature import Signature, signature_of
 from colift.agents.onnx.sizes import check_work, inferred_shapes
 from colift.agents.onnx.versions import check_versions
+from colift.base.errors import InputError
 
 onnx = import_library("onnx")
 numpy_helper = import_library("onnx.numpy_helper")

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.onnx.libraries import import_library
 from colift.agents.onnx.network import Network, read_network
 from colift.agents.onnx.ports import one_line
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 onnxruntime = import_library("onnxruntime")

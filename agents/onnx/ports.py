@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import MOST_STATE
 from colift.agents.onnx.libraries import import_library
+from colift.base.errors import InputError
 
 onnx = import_library("onnx")
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import MOST_OBSERVATION, MOST_STATE
 from colift.agents.onnx.names import ACTION, OBSERVATION, candidates, paired
 from colift.agents.onnx.ports import Port, listed, quoted
+from colift.base.errors import InputError
 
 ACTIONS: Final = ((), (1,), (1, 1))
 """Shapes of the action."""

@@ -4,10 +4,10 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import LARGEST_SUM, LARGEST_TENSOR, RECURRENT
 from colift.agents.onnx.libraries import import_library
 from colift.agents.onnx.ports import Shape, one_line, quoted
+from colift.base.errors import InputError
 
 onnx = import_library("onnx")
 checker = import_library("onnx.checker")

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import IR_VERSIONS, OPSETS, OWN_DOMAINS
+from colift.base.errors import InputError
 
 
 def check_versions(model: Any) -> None:

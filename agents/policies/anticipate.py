@@ -15,7 +15,7 @@ from colift.agents.control.anticipation import (
     load_anticipation,
 )
 from colift.agents.control.preview import preview_gains
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

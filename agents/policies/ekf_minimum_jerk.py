@@ -14,12 +14,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk_filter import (
     MinimumJerkFilter,
     MinimumJerkFilterParameters,
 )
 from colift.agents.estimators.stroke_window import StrokeWindow, StrokeWindowParameters
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.predictor import Predictor, PredictorParameters
-from colift.agents.errors import InputError
 from colift.agents.estimators.gain_control import gain_control
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

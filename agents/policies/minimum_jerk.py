@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.errors import InputError
 from colift.agents.estimators.innovation_variance import (
     InnovationVariance,
     InnovationVarianceParameters,
@@ -24,6 +23,7 @@ from colift.agents.estimators.minimum_jerk_fit import (
     MinimumJerkFitParameters,
 )
 from colift.agents.estimators.stroke_window import StrokeWindow, StrokeWindowParameters
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

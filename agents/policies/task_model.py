@@ -8,7 +8,7 @@ from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.adaptive_impedance import Movement, Surprise, certainty, compliance
 from colift.agents.control.learned_task import LearnedTask, TaskForecast, load_task
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 

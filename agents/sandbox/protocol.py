@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import msgpack
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 AGENTS: Final = Path(__file__).resolve().parents[1]
 """The part of colift that the guest sees: ``colift.agents``, without the humans."""

@@ -1,12 +1,12 @@
 """The roles of a network's inputs and outputs, as a line for its author."""
 
 from colift.agents.actions import action_limit
-from colift.agents.observations import AgreeObservation
 from colift.agents.onnx.network import read_network
 from colift.agents.onnx.ports import Port, quoted
 from colift.agents.onnx.signature import Signature
 from colift.agents.submissions.submission import Submission
 from colift.agents.submissions.training_view import PERIOD, VIEWS, TrainingView
+from colift.agents.tasks.agree.observation import AgreeObservation
 
 
 def bound_text(submission: Submission) -> str:

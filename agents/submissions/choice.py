@@ -4,12 +4,8 @@ import functools
 import sys
 from pathlib import Path
 
-from colift.agents.errors import InputError
-from colift.agents.identity import source_hash
-from colift.agents.loading.loading import PolicySpec
 from colift.agents.loading.parameters import merged, split
-from colift.agents.near_names import did_you_mean
-from colift.agents.registry import POLICIES, entries, entry_of, own_entries
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.levels import LEVELS, choose, fault
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.spec import AUTO, NONE, AgentSpec
@@ -17,6 +13,10 @@ from colift.agents.submissions.hints import import_hint, refuse_other_file
 from colift.agents.submissions.modules import module_digest
 from colift.agents.submissions.snapshot import snapshot_file
 from colift.agents.submissions.submission import digest_with, open_submission
+from colift.base.errors import InputError
+from colift.base.identity import source_hash
+from colift.base.near_names import did_you_mean
+from colift.base.registry import POLICIES, entries, entry_of, own_entries
 
 
 def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:

@@ -9,12 +9,12 @@ import sys
 from typing import Any, Final
 from urllib.parse import urlsplit
 
-from colift.agents.errors import InputError
 from colift.agents.loading.parameters import merged
-from colift.agents.registry import POLICIES, own_entries
 from colift.agents.submissions.folder import NAME as PART
 from colift.agents.submissions.packages import PACKAGES, installed
 from colift.agents.submissions.training_view import VIEWS
+from colift.base.errors import InputError
+from colift.base.registry import POLICIES, own_entries
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9 ._+-]{0,39}")
 LONGEST_LINE: Final = 200

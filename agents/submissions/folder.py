@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.line_ends import is_text, with_unix_line_ends
+from colift.base.errors import InputError
 
 MIB: Final = 2**20
 CHUNK: Final = MIB

@@ -4,14 +4,14 @@ import ast
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
 from colift.agents.loading.parameters import merged, split
 from colift.agents.loading.policy_files import classes
-from colift.agents.near_names import did_you_mean
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.submissions import fields
 from colift.agents.submissions.new import POLICY, write_files
 from colift.agents.submissions.packages import needed
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
 
 DESCRIPTION: Final = "A policy."
 """The description of a class without a docstring."""

@@ -4,12 +4,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.loading.parameters import split
 from colift.agents.onnx.allowed import LARGEST
 from colift.agents.submissions import fields
 from colift.agents.submissions.new import write_files
 from colift.agents.submissions.submission import read_submission
+from colift.base.errors import InputError
 
 MODEL: Final = "policy.onnx"
 """The file of the network in the folder."""

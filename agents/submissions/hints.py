@@ -4,14 +4,14 @@ import re
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError, Remedy
-from colift.agents.loading.loading import PolicySpec
 from colift.agents.loading.policy_files import ONNX, with_class
-from colift.agents.registry import POLICIES, entries
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.submissions.manifest import MANIFEST
 from colift.agents.submissions.packages import PACKAGES, undeclared
 from colift.agents.submissions.snapshot import snapshot_file
 from colift.agents.submissions.submission import open_submission
+from colift.base.errors import InputError, Remedy
+from colift.base.registry import POLICIES, entries
 
 MISSING: Final = re.compile(r"No module named '([\w.]+)'")
 """Python's words for an import of something that is not there."""

@@ -5,10 +5,10 @@ from dataclasses import MISSING, dataclass
 from dataclasses import fields as fields_of
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.near_names import did_you_mean
 from colift.agents.submissions import fields
-from colift.agents.text import parse_toml
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
+from colift.base.text import parse_toml
 
 MANIFEST: Final = "policy.toml"
 """The manifest's name in the folder."""

@@ -4,9 +4,9 @@ import importlib.util
 from importlib.machinery import ModuleSpec, PathFinder
 from pathlib import Path
 
-from colift.agents.errors import InputError
-from colift.agents.identity import source_hash
 from colift.agents.sandbox.host.view import view
+from colift.base.errors import InputError
+from colift.base.identity import source_hash
 
 
 def module_digest(name: str) -> str:

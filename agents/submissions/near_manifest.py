@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError, Remedy
 from colift.agents.submissions.folder import LIMITS, is_part
 from colift.agents.submissions.manifest import MANIFEST
+from colift.base.errors import InputError, Remedy
 
 ALIKE: Final = 0.8
 """Least similarity of a file's name to the manifest's that counts as a near miss, 0 to 1."""

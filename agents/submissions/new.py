@@ -7,9 +7,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
 from colift.agents.submissions import fields
 from colift.agents.submissions.manifest import MANIFEST, OF_CODE, Manifest
+from colift.base.errors import InputError
 
 PLACEHOLDER: Final = "my-policy"
 """The name of the policy in the template."""

@@ -12,7 +12,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import (
     LIMITS,
     FolderContents,
@@ -21,6 +20,7 @@ from colift.agents.submissions.folder import (
     unwritable,
 )
 from colift.agents.submissions.line_ends import is_text, with_unix_line_ends
+from colift.base.errors import InputError
 
 KEPT_DAYS: Final = 7
 """Days that a copy is kept after its last use."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError, Remedy
 from colift.agents.loading.parameters import merged
 from colift.agents.loading.policy_files import ONNX, policies_in
 from colift.agents.onnx.allowed import LARGEST
@@ -18,6 +17,7 @@ from colift.agents.submissions.manifest import MANIFEST, Manifest, read_manifest
 from colift.agents.submissions.near_manifest import NAME, files_of, no_manifest
 from colift.agents.submissions.snapshot import snapshot
 from colift.agents.submissions.trusted import TrustedSubmission
+from colift.base.errors import InputError, Remedy
 
 DIGEST: Final = 16
 """Hexadecimal digits of the digests in tables."""

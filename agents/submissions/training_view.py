@@ -9,8 +9,8 @@ from typing import Any, Final
 import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import Observation
-from colift.agents.errors import InputError
 from colift.agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 Single = NDArray[np.float32]

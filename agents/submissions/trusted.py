@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from colift.agents.agent import Agent
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.protocol import OURS
 from colift.agents.spec import InProcess
 

@@ -1,10 +1,10 @@
 """A network that was trained in the training view, as a policy."""
 
 from colift.agents.agent import Observation
-from colift.agents.errors import InputError
-from colift.agents.near_names import did_you_mean
 from colift.agents.onnx.policy import OnnxPolicy
 from colift.agents.submissions.training_view import VIEWS, TrainingView
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
 
 
 class ViewedNetwork:

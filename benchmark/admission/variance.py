@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import ArrayLike
 
 

@@ -14,7 +14,8 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
-from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
 from colift.benchmark.training.data import Timing, TrainingData
 

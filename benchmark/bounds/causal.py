@@ -13,15 +13,15 @@ from typing import Final
 from colift.agents.agent import Agent
 from colift.agents.control.recurrent import GatedNetwork, read_gated
 from colift.agents.control.recurrent_controller import RecurrentController
-from colift.agents.errors import InputError
-from colift.agents.identity import code_hash
 from colift.agents.spec import InProcess
-from colift.agents.touch.touch_controller import TouchController, read_touch
-from colift.agents.touch.touch_law import TouchNetwork
-from colift.benchmark.episode.level import LEVEL
+from colift.agents.tasks.touch.touch_controller import TouchController, read_touch
+from colift.agents.tasks.touch.touch_law import TouchNetwork
+from colift.base.errors import InputError
+from colift.base.identity import code_hash
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import LEVEL
 
 CAUSAL_BOUND: Final = "causal_bound"
 

@@ -2,9 +2,10 @@
 
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import LAST_SEED
 
 FIRST_SEED: Final = LAST_SEED + 1

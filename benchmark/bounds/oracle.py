@@ -5,13 +5,12 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.agents.identity import code_hash
+from colift.base.errors import InputError
+from colift.base.identity import code_hash
 from colift.benchmark.bounds.causal import CausalBound
-from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.suites.suite import Suite
@@ -21,6 +20,7 @@ from colift.benchmark.tasks.ball.oracle import foresee
 from colift.benchmark.tasks.ball.task import BallSteering
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.task import Intent
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.tasks.rehearsal import refine, rehearse_lift
 
 ORACLE: Final = "oracle"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.bounds.oracle import ORACLE, oracle_run

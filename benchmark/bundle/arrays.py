@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, BinaryIO, Final
 
 import numpy as np
-from colift.agents.errors import InputError, error_text
+from colift.base.errors import InputError, error_text
 from numpy.typing import NDArray
 
 MOST_BYTES: Final = 2**30

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 RESULTS: Final = "results.json"
 EPISODES: Final = "episodes.csv"

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.humans import Cued, HandLog, Played
 from colift.agents.humans.cued import KINDS
+from colift.base.errors import InputError
 from colift.benchmark.bundle.arrays import Arrays, dump_arrays, parse_arrays, take_array
 from colift.benchmark.bundle.files import INPUTS
 from colift.benchmark.episode.scenario import Scenario

@@ -4,7 +4,7 @@ import json
 from collections.abc import Sequence
 from typing import Any, TypeVar
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 T = TypeVar("T")
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle.arrays import parse_arrays
 from colift.benchmark.bundle.files import (
     EPISODES,
@@ -25,7 +25,7 @@ from colift.benchmark.bundle.recipe import FROM_NAMES, Recipe
 from colift.benchmark.bundle.table import parse_table, treated
 from colift.benchmark.bundle.traces import LARGEST_LIFT, parse_traces
 from colift.benchmark.bundle.writing import FORMAT, kept_logs
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.runner import Run
 

@@ -9,16 +9,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Self
 
-from colift.agents.errors import InputError
 from colift.agents.humans import Behaviour, Recorded, load_recordings
 from colift.agents.humans.recordings import COLUMNS
-from colift.agents.registry import UnknownNameError
+from colift.base.errors import InputError
+from colift.base.registry import UnknownNameError
 from colift.benchmark.bundle.files import INPUTS, MANIFEST, RECORDINGS
 from colift.benchmark.bundle.inputs import dump_inputs, parse_inputs
 from colift.benchmark.bundle.json_text import of_type, pick
 from colift.benchmark.channels import Channel
 from colift.benchmark.channels.recorded import parse_recorded, recorded
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import (
@@ -29,6 +28,7 @@ from colift.benchmark.suites.catalogue import (
     make_task,
 )
 from colift.benchmark.suites.suite import LONGEST_SUITE_NAME, Suite, plain_name
+from colift.benchmark.tasks.level.task import LEVEL
 
 MOST_EPISODES: Final = 100_000
 """Largest number of episodes in a bundle."""

@@ -5,8 +5,8 @@ from dataclasses import fields
 from typing import Any, Final
 
 from colift.benchmark.channels import Link
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, on_boards
+from colift.benchmark.tasks.level.task import LEVEL
 
 DIALECT: Final = "https://json-schema.org/draft/2020-12/schema"
 

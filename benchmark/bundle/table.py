@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle.files import EPISODES, TRACES
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, Metrics, Scores, reached
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import RECORDED

@@ -9,7 +9,7 @@ from operator import attrgetter
 from typing import Any, Final
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle.arrays import Arrays, Parts, take_array
 from colift.benchmark.bundle.files import TRACES
 from colift.benchmark.episode.recorder import HASH_BYTES

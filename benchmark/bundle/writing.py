@@ -21,7 +21,7 @@ from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.bundle.recipe import Recipe
 from colift.benchmark.bundle.table import dump_table, treated
 from colift.benchmark.bundle.traces import trace_arrays
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import Run
 

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 JITTERS: Final = ("gamma", "lognormal")
 """Families of the jitter."""

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.agents.near_names import did_you_mean
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
 from colift.benchmark.channels.channel import Channel, Link
 from colift.benchmark.channels.reading import read_channel
 

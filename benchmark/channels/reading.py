@@ -5,9 +5,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.near_names import did_you_mean
-from colift.agents.text import parse_toml, read_bytes
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
+from colift.base.text import parse_toml, read_bytes
 from colift.benchmark.channels.channel import Channel, Link
 
 LONGEST: Final = 16 * 1024

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.identity import code_hash
+from colift.base.errors import InputError
+from colift.base.identity import code_hash
 from colift.benchmark.channels.channel import Channel, Link
 from colift.benchmark.channels.reading import parse_channel
 from colift.benchmark.channels.teleoperated import teleoperated

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from colift.agents.actions import checked_action
 from colift.agents.agent import Action, Agent, Observation, Printing, RobotObservation
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.channels.channel import Channel
 from colift.benchmark.channels.schedule import channel_seed, schedule
 from colift.benchmark.episode.scenario import Scenario

@@ -5,12 +5,12 @@ from typing import Final
 
 from colift.agents.actions import HAND_SPEED
 from colift.benchmark.channels import channel_name
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.ranking import Ranking
-from colift.benchmark.episode.level_metrics import MOSTLY_CLIPPED
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.goals import goal_scores
+from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference excludes zero."""

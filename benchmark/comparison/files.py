@@ -11,7 +11,7 @@ from typing import Any
 
 from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.comparison.captions import picture_axis, picture_title
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.comparison.scatter.png import png

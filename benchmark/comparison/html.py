@@ -5,7 +5,7 @@ from importlib.metadata import version
 from typing import Final
 
 from colift.benchmark.comparison import captions
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from colift.agents.errors import InputError, Remedy
+from colift.base.errors import InputError, Remedy
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.bundle.files import RESULTS
 from colift.benchmark.bundle.json_text import pick

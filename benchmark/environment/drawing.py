@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from colift.agents.humans import Subject
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.level.task import LEVEL
 
 TRAINING_SEEDS: Final = range(100_000, 200_000)
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""

@@ -18,11 +18,11 @@ from colift.benchmark.environment.settings import (
     observation_space,
 )
 from colift.benchmark.environment.state import state_space, true_state
-from colift.benchmark.episode.level import LEVEL as LEVEL_TASK
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.rendering.scene import Scene, check_render_mode
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import LEVEL as LEVEL_TASK
 from colift.benchmark.tasks.worlds import lift_after
 from gymnasium.spaces import Box
 from numpy.typing import NDArray

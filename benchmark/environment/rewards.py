@@ -3,11 +3,11 @@
 from typing import Final, Protocol, runtime_checkable
 
 import numpy as np
-from colift.agents.errors import InputError
-from colift.benchmark.episode.level import Level
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Task
+from colift.benchmark.tasks.level.task import Level
 from numpy.typing import NDArray
 
 LEVEL: Final = "level"

@@ -5,7 +5,7 @@ from typing import Any, Final
 import gymnasium
 import numpy as np
 from colift.agents.agent import Action, Agent, Observation
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment.parallel import parallel_env
 from colift.benchmark.environment.settings import HUMAN, ROBOT, SETTINGS, check_options
 from gymnasium.spaces import Space

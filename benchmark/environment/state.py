@@ -4,8 +4,8 @@ from enum import IntEnum
 
 import numpy as np
 from colift.agents.senses import FORCE_BOUND, HEIGHT_BOUND
-from colift.benchmark.episode.level import VELOCITY_BOUND
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.tasks.level.task import VELOCITY_BOUND
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 

@@ -7,12 +7,12 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import ANY, DRAW, make_drawing
 from colift.benchmark.environment.rewards import REWARDS, SCORE, UNIT
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.twin import playing as lifting
 from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
 from colift.benchmark.twin.playing import Due, LiftState

@@ -6,10 +6,10 @@ from typing import Any, Final
 import gymnasium
 import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
-from colift.agents.errors import InputError
 from colift.agents.senses import HEIGHT_BOUND
 from colift.agents.submissions.network.policy import CORRECTION, FIXED, Senses, line, scales
 from colift.agents.submissions.training_view import Single, scaled, unscaled
+from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import ANY, DRAW
 from colift.benchmark.environment.rewards import SCORE
 from colift.benchmark.environment.single import RobotEnv

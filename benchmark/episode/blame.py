@@ -3,11 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.plugins import error_at, is_ours, place_of, plugin_frames
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.plugins import error_at, is_ours, place_of, plugin_frames
 from colift.benchmark.episode.conformance import episode_fault, observation_fault, plan_fault
-from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 

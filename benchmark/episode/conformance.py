@@ -7,9 +7,9 @@ from typing import Any, cast
 import numpy as np
 from colift.agents.agent import Observation
 from colift.agents.humans import Behaviour, Plan, Subject
-from colift.agents.plugins import article, error_at, object_fault
-from colift.benchmark.episode.episode import Episode
+from colift.base.plugins import article, error_at, object_fault
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Task
 

@@ -10,12 +10,11 @@ import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.calibration import CALIBRATION
 from colift.agents.humans import Partner
-from colift.agents.identity import Root, code_hash
-from colift.agents.registry import HUMANS, ROBOTS, TASKS, lookup, own_entries
-from colift.benchmark.episode.episode import run_episode
+from colift.base.identity import Root, code_hash
+from colift.base.registry import HUMANS, ROBOTS, TASKS, lookup, own_entries
 from colift.benchmark.episode.kept_world import lift_in_kept_world
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.recorder import Recorder
 
 SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
@@ -25,7 +24,7 @@ table."""
 PLAYS_AND_SCORES: Final[tuple[Root, ...]] = (*SIMULATES, RobotObservation, run_episode)
 """The code from a plan and a policy to the scores of an episode."""
 
-STATED: Final = (CALIBRATION, LEVEL_METRICS)
+STATED: Final = (CALIBRATION,)
 """Values that the code uses, but that the digest states elsewhere or not at all: what is calibrated
 is in the scenarios and in fields of classes; the presentation of metrics changes no score, and
 their limits are stated with their task."""
@@ -62,7 +61,7 @@ def plain(value: Any) -> Any:
 
 @functools.cache
 def _code(kind: type) -> str:
-    metrics = [kind.metrics] if hasattr(kind, "metrics") else []
+    metrics = [vars(each)["metrics"] for each in kind.__mro__ if "metrics" in vars(each)]
     return code_hash(kind, without=(*STATED, *metrics), values=True)
 
 

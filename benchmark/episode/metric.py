@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.drawn import DrawnSeries
 
 LEADING: Final = "rmse_mm"

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.robots.arithmetic import dot
 from numpy.typing import ArrayLike, NDArray
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.actions import ActionError
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.recorder import Recorder

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.humans import Behaviour, Subject
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
 from colift.benchmark.episode.seat import Seat, make_seat
 from colift.benchmark.episode.task import Task
 
@@ -45,7 +44,7 @@ class Scenario:
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY
     """Age of the motion-capture sample when the robot decides [s]."""
-    task: Task = LEVEL
+    task: Task
     """The agents' common purpose."""
 
     def __post_init__(self) -> None:

@@ -8,10 +8,10 @@ from typing import ClassVar, Final, Protocol
 
 import numpy as np
 from colift.agents.agent import FRAME, Observation
-from colift.agents.errors import InputError
 from colift.agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
-from colift.agents.registry import UnknownNameError
 from colift.agents.rules import SCALARS, ArrayFunctions, N
+from colift.base.errors import InputError
+from colift.base.registry import UnknownNameError
 from colift.benchmark.episode.task import Playing, Task
 from colift.benchmark.robots.robot import Robot, make_robot, robot_names
 from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd

@@ -6,8 +6,8 @@ from typing import Final
 import numpy as np
 from colift.agents.rules import ArrayFunctions, N, View
 from colift.agents.senses import FORCE_NOISE, MOCAP_NOISE, SIGHT, TORQUE_NOISE, TOUCH, Sense
+from colift.benchmark.world.interface import HISTORY_FRAMES
 from colift.benchmark.world.table import WEIGHT_SHARE
-from colift.benchmark.world.world import HISTORY_FRAMES
 from numpy.typing import NDArray
 
 SENSED_FRAMES: Final = 5

@@ -20,7 +20,7 @@ import math
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.robots.arithmetic import dot
 from numpy.typing import ArrayLike, NDArray
 

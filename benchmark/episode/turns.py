@@ -5,7 +5,7 @@ from typing import Final
 
 from colift.agents.actions import ActionError, checked_action
 from colift.agents.agent import Agent, Explaining, Observation, Printing
-from colift.agents.errors import EvaluatorFault, error_text
+from colift.base.errors import EvaluatorFault, error_text
 from colift.benchmark.episode.seeding import derive_seed
 
 START: Final = "start: "

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import Action, Agent, Observation
-from colift.agents.errors import EvaluatorFault, InputError, error_text
 from colift.agents.spec import AgentSpec, Paced
+from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.channels import Channel
 from colift.benchmark.channels.teleoperated import teleoperated
 from colift.benchmark.episode.blame import blaming_plugins, check_episode, check_start
-from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.kept_world import drop_kept_world
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.hidden import keyed
 from colift.benchmark.suites.suite import Suite

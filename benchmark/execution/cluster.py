@@ -11,7 +11,7 @@ from concurrent.futures import CancelledError, Executor, Future
 from contextlib import suppress
 from typing import Any, Final, ParamSpec, TypeVar
 
-from colift.agents.errors import EvaluatorFault
+from colift.base.errors import EvaluatorFault
 from colift.benchmark.execution.provenance import check_same_origin, origin
 
 LARGE: Final = 2**16

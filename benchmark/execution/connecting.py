@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, Final
 
-from colift.agents.errors import InputError, error_text
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError, error_text
+from colift.base.extras import how_to_install
 from colift.benchmark.execution.cluster import Cluster
 from colift.benchmark.execution.provenance import COLIFT, check_same_origin, origin
 

@@ -8,7 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 ENGINES: Final = ("pybullet", "pybullet-arm64")
 """PyBullet, and a fork of it for later versions of Python and for other systems than Linux."""

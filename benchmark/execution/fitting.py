@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from contextlib import ExitStack, closing
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.agents.registry import TASKS, entries
 from colift.agents.spec import AgentSpec, Paced
+from colift.base.errors import InputError
+from colift.base.registry import TASKS, entries
 from colift.benchmark.episode.blame import blaming_plugins, check_start
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario

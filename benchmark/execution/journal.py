@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError, Remedy
 from colift.agents.submissions.folder import unwritable
-from colift.benchmark.episode.episode import Episode
+from colift.base.errors import InputError, Remedy
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.records import append_record, episode_of, records
 from colift.benchmark.execution.shelf import EpisodeFile
 

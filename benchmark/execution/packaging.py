@@ -11,11 +11,11 @@ from typing import Final
 
 import msgpack
 from colift.agents.agent import Agent
-from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.spec import AgentSpec, Paced, Portable
 from colift.agents.submissions.folder import read_folder
 from colift.agents.submissions.modules import module_digest
 from colift.agents.submissions.snapshot import snapshot, snapshot_file
+from colift.base.errors import EvaluatorFault, InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from typing import Any, Final, ParamSpec, TypeVar
 
-from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.execution.processors import usable_processors
 
 P = ParamSpec("P")

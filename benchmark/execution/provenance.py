@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
-from colift.agents.identity import Root, code_hash
 from colift.agents.sandbox.guest import forkserver
+from colift.base.errors import InputError
+from colift.base.identity import Root, code_hash
 from colift.benchmark.episode.identity import STATED, simulation_hash
 from colift.benchmark.execution.batches import Batch
 from colift.benchmark.execution.distributions import binaries, engine, library_versions

@@ -14,7 +14,7 @@ from typing import Any, BinaryIO, Final
 
 import msgpack
 import numpy as np
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from colift.agents.spec import AgentSpec
 from colift.benchmark.channels import Channel
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.batches import Faults, batches, run_batches, shuffled_batches
 from colift.benchmark.execution.packaging import packaged
 from colift.benchmark.execution.shelf import Shelf, Spool

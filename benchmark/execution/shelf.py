@@ -13,9 +13,9 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, Final, Protocol
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import unwritable
-from colift.benchmark.episode.episode import Episode
+from colift.base.errors import InputError
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.execution.records import append_record, episode_of, record_of, records
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.export.card import CARD, card
 from colift.benchmark.export.contents import Contents
 from colift.benchmark.export.folder import new_folder

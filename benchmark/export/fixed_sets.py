@@ -9,17 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import Recorded, Recording, load_recordings
-from colift.agents.threads import one_thread
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import InputError
+from colift.base.threads import one_thread
 from colift.benchmark.episode.identity import plain, scores_hash
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.export.lifts import ExportedLift
 from colift.benchmark.export.observing import ObservedLift
 from colift.benchmark.export.rules import NAMES, agent, rule
 from colift.benchmark.suites.catalogue import RECORDED, make_scenario, make_subject
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS, LEVEL
 
 FIRST_SEED: Final = 120_000
 """Seed of the first lift and of its person: one of the training seeds, which no suite contains.
@@ -137,6 +137,7 @@ def _scenario(seed: int, human: bool, motions: tuple[Recording, ...]) -> Scenari
             human=Recorded(recording=motion),
             trial=motion.name,
             subject=make_subject(subject),
+            task=LEVEL,
         )
     behaviour = BEHAVIOURS[place % len(BEHAVIOURS)]
     return make_scenario(behaviour, subject, partner="human" if human else "nao")

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.export.provenance import STAMP
 
 

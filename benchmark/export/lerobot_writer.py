@@ -12,7 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.export.library import import_pyarrow
 from colift.benchmark.export.lifts import ExportedLift
 from colift.benchmark.export.provenance import Provenance

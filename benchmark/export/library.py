@@ -3,8 +3,8 @@
 import importlib
 from typing import Any
 
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 
 
 def import_minari(module: str = "") -> Any:

@@ -5,9 +5,9 @@ from concurrent.futures import Executor
 from contextlib import closing
 from dataclasses import dataclass
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import Bundle, one_line
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.replay import ReplayError, replay
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.provenance import POLICIES_ONLY, fingerprint

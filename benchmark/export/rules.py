@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import Agent
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec, source_digest
+from colift.agents.loading.policy_spec import PolicySpec, source_digest
 from colift.agents.policies.anticipate import Anticipate
+from colift.base.errors import InputError
 from colift.benchmark.export.agents import Clipped, Follower, SeededPartner
 
 EXPERT: Final = "anticipate"

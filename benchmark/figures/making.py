@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import EvaluatorFault, InputError
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.figures.changes import file_change
 from colift.benchmark.figures.origins import origin_of
 from colift.benchmark.figures.records import (

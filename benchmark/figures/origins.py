@@ -8,13 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.identity import code_hash
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import own_policies
-from colift.benchmark.episode.level import LEVEL
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.base.identity import code_hash
+from colift.base.registry import own_policies
 from colift.benchmark.figures.registry import ALL, RecordedFigure
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import LEVEL
 
 COLIFT: Final = __name__.partition(".")[0]
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.agents.text import parse_toml, read_bytes
+from colift.base.errors import InputError
+from colift.base.text import parse_toml, read_bytes
 
 REGISTRY: Final = "figures.toml"
 

@@ -12,10 +12,10 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.hardware.missing import import_optional
 from colift.agents.hardware.nao.session import first_line, quiet
 from colift.agents.hardware.operator import StopButton
+from colift.base.errors import InputError
 from colift.benchmark.hardware.laboratory import FAULTS, Conditions, Laboratory
 from colift.benchmark.hardware.markers import MARKERS, Row
 from colift.benchmark.hardware.services import Log

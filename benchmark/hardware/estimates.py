@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.hardware.loop import DEAD_TIME
 from colift.agents.hardware.plausibility import in_order, seen
 from colift.agents.hardware.trial_log import LoggedTrial
+from colift.base.errors import InputError
 from colift.benchmark.world.table import WEIGHT_SHARE
 from colift.robots.nao.kinematics import arm_path
 from numpy.typing import NDArray

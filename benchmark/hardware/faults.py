@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 KINDS: Final = {
     "dropout": "the motion capture sends no frames",

@@ -7,10 +7,10 @@ from typing import Final
 import numpy as np
 from colift.benchmark.world import BodyParameters, BulletWorld, NaoFarEnd
 from colift.benchmark.world.engine import BulletEngine
+from colift.benchmark.world.interface import Engine, Intended
 from colift.benchmark.world.nao_arms import NaoArms
 from colift.benchmark.world.servo import Servo
 from colift.benchmark.world.table import WEIGHT_SHARE
-from colift.benchmark.world.world import Engine, Intended
 from colift.robots.nao.kinematics import (
     ARM_JOINTS,
     MIRROR,

@@ -13,13 +13,12 @@ from typing import Any, Final, cast
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.hardware.plausibility import in_order, seen
 from colift.agents.hardware.ports import Sample
 from colift.agents.hardware.trial_log import TrialLog
 from colift.agents.humans import SUBJECTS, Plan, Subject
-from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.recorder import HASH_BYTES
 from colift.benchmark.episode.scenario import Scenario
@@ -28,6 +27,7 @@ from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.world.table import TABLE_LENGTH
 from numpy.typing import NDArray
 
@@ -79,6 +79,7 @@ def hardware_suite(name: str, person: str, trials: int, *, period: float, latenc
         subject=dataclasses.replace(SUBJECTS["S1"], name=person),
         control_period=period,
         latency=latency,
+        task=LEVEL,
     )
     return Suite(name=name, scenarios=(scenario,), seeds=tuple(range(trials)))
 

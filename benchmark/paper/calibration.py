@@ -23,7 +23,7 @@ from colift.agents.control.predictor import PredictorParameters
 from colift.agents.estimators.motion_filter import MotionFilterParameters
 from colift.agents.humans import GOAL_RANGE, Partner
 from colift.agents.humans.partner import PartnerParameters
-from colift.agents.loading.loading import InMemorySpec, PolicySpec
+from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.policies.blend import Blend
 from colift.agents.spec import AgentSpec
 from colift.benchmark.execution.runner import run_suite

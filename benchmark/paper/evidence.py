@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.humans import Behaviour, Jerky, Pause
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run, run_suite
@@ -186,7 +186,7 @@ def first_seeds(suite: Suite, count: int) -> Suite:
 def behaving(suite: Suite, name: str, human: Behaviour, seeds: int) -> Suite:
     """Return a suite of the same subjects, with another behaviour, on the first of the seeds."""
     scenarios = tuple(
-        Scenario(behaviour=name, human=human, subject=scenario.subject)
+        Scenario(behaviour=name, human=human, subject=scenario.subject, task=scenario.task)
         for scenario in suite.scenarios
     )
     return Suite(name=name, scenarios=scenarios, seeds=suite.seeds[:seeds])

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.paper.evidence import Evidence
 from colift.benchmark.paper.exhibits import Claim, Exhibit
 from colift.benchmark.paper.pages import report_pages

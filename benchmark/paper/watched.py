@@ -9,10 +9,10 @@ import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.predictor import PredictorParameters
 from colift.agents.humans import Plan
-from colift.agents.loading.loading import InMemorySpec
+from colift.agents.loading.policy_spec import InMemorySpec
 from colift.agents.policies.blend import Blend
-from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run
 from numpy.typing import ArrayLike, NDArray

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Final, ParamSpec, TypeVar
 
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.connecting import dask_pool
 from colift.benchmark.execution.pool import process_pool

@@ -8,10 +8,10 @@ from functools import partial
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.episode.episode import run_episode
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift, MakeWorld
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
 from colift.benchmark.episode.trace import Trace

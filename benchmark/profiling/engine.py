@@ -8,10 +8,10 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from typing import Final
 
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import EvaluatorFault
+from colift.base.errors import EvaluatorFault
 
 START_SECONDS: Final = 180.0
 """Longest time for the processes to start [s]."""

@@ -9,7 +9,7 @@ from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 
 LIMIT_MS: Final = 10.0
 """Longest 99th percentile of a step [ms]: one motion-capture frame, a tenth of a control period.

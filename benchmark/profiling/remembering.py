@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Final
 
 from colift.agents.sandbox.host.policy import SandboxedPolicy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 
 LIFTS: Final = 20

@@ -14,8 +14,8 @@ from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import read_submission
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.suites.catalogue import make_scenario
 

@@ -10,10 +10,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
 from colift.benchmark.twin.rollout import rollout
 

@@ -2,7 +2,7 @@
 
 from typing import Final, Literal
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.seat import HUMANS
 from colift.benchmark.robots.robot import Robot, make_robot
 

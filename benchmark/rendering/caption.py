@@ -13,7 +13,7 @@ from colift.benchmark.episode.drawn import (
     intended_far_end,
     shown_error,
 )
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.bodies import PERSON, label_of, shown_body
 from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT

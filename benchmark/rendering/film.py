@@ -7,14 +7,14 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.drawn import (
     DrawnSeries,
     ball_and_target,
     intended_far_end,
     shown_error,
 )
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.rendering.bodies import label_of

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.rendering.caption import letters
 from colift.benchmark.rendering.mannequin import Mannequin

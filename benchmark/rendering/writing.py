@@ -7,8 +7,8 @@ from types import ModuleType
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.rendering.scene import Picture
 from PIL import Image
 

@@ -14,7 +14,7 @@ from typing import Any, Final, Protocol, runtime_checkable
 
 from colift.agents.agent import Agent
 from colift.agents.humans import Partner
-from colift.agents.loading.loading import InMemorySpec, PolicySpec
+from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.task import Task
 from colift.benchmark.execution.runner import Run, run_suite

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from typing import Final
 
 from colift.agents.actions import action_limit
-from colift.benchmark.episode.level_metrics import MOSTLY_CLIPPED
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import Summary
+from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 
 MEANINGS: Final = {"hold": "never moves", "copy": "goes where the human was"}
 """Descriptions of the simple policies with which every score is compared."""

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple, Self
 
 import msgspec
 import numpy as np
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, on_boards
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.statistics import (

@@ -16,8 +16,8 @@ from colift.agents.actions import HAND_SPEED
 from colift.agents.agent import FRAME
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.engine import BulletEngine, Vector, load_urdf, pin
+from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.table import FAR_GRIP, PITCH, WEIGHT_SHARE
-from colift.benchmark.world.world import Engine
 
 JOINTS: Final = 7
 """Number of joints."""

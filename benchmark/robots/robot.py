@@ -5,8 +5,8 @@ from functools import cache
 from pathlib import Path
 from typing import Final, Protocol
 
-from colift.agents.plugins import make_registered, object_fault
-from colift.agents.registry import ROBOTS, entries
+from colift.base.plugins import make_registered, object_fault
+from colift.base.registry import ROBOTS, entries
 from colift.benchmark.world import FarEnd
 
 ROBOT: Final = "nao"

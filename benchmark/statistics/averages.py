@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import overload
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics.samples import FloatArray
 from numpy.typing import ArrayLike
 

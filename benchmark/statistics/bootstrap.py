@@ -5,7 +5,7 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics.samples import (
     FloatArray,
     Interval,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Self
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics.bootstrap import expanded_percentile, stratified_bootstrap
 from colift.benchmark.statistics.samples import (
     FloatArray,

@@ -22,7 +22,7 @@ from statistics import NormalDist
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics.samples import FloatArray, paired, sample
 from numpy.typing import ArrayLike, NDArray
 

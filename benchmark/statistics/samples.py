@@ -7,7 +7,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from typing import Final, TypeVar
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]

@@ -1,8 +1,8 @@
 """Scenarios, subjects and tasks by name."""
 
 from pathlib import Path
+from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import (
     LIVE_SUBJECT,
     SUBJECTS,
@@ -11,17 +11,20 @@ from colift.agents.humans import (
     Subject,
     load_recordings,
 )
-from colift.agents.near_names import did_you_mean
-from colift.agents.plugins import make_registered
-from colift.agents.registry import HUMANS, TASKS, called, entries
+from colift.base.errors import InputError
+from colift.base.near_names import did_you_mean
+from colift.base.plugins import make_registered
+from colift.base.registry import HUMANS, TASKS, called, entries
 from colift.benchmark.episode.conformance import behaviour_fault, task_fault
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.task import Task
 
-RECORDED = "recorded"
+TASK: Final = "level"
+"""The default task, that of the paper."""
 
-PLAYED = "played"
+RECORDED: Final = "recorded"
+
+PLAYED: Final = "played"
 """The behaviour of live lifts; it is not registered, since it needs their recorded hands."""
 
 
@@ -76,7 +79,7 @@ def make_scenario(
     partner: str = "nao",
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
-    task: str = LEVEL.name,
+    task: str = TASK,
 ) -> Scenario:
     """Return a scenario from names.
 

@@ -11,8 +11,8 @@ import hmac
 import secrets
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import Subject
+from colift.base.errors import InputError
 from colift.benchmark.suites.suite import Suite
 
 SECRET_BYTES: Final = 32

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from colift.agents.plugins import article, place_of
+from colift.base.plugins import article, place_of
 from colift.benchmark.episode.conformance import behaviour_fault, task_fault
 from colift.benchmark.episode.scenario import Scenario
 

@@ -9,23 +9,19 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS, Recorded, load_recordings
-from colift.agents.plugins import article, blaming
-from colift.agents.registry import SUITES, called, lookup
+from colift.base.errors import InputError
+from colift.base.plugins import article, blaming
+from colift.base.registry import SUITES, called, lookup
 from colift.benchmark.episode.identity import plain, scores_hash
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.robots.robot import make_robot
-from colift.benchmark.suites.catalogue import RECORDED, make_scenario
+from colift.benchmark.suites.catalogue import RECORDED, TASK, make_scenario, make_task
 from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 
 LONGEST_SUITE_NAME: Final = 200
 """Longest name of a suite [characters]."""
-
-BEHAVIOURS: Final = Level.behaviours
-"""The behaviours of the standard suites."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,6 +195,7 @@ def recorded_suite(path: Path) -> Suite:
             human=Recorded(recording=recording),
             trial=recording.name,
             subject=subjects[i % len(subjects)],
+            task=make_task(TASK),
         )
         for i, recording in enumerate(load_recordings(path))
     )

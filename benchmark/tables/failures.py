@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from colift.benchmark.bundle import one_line
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.turns import START, STEP
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.tables.printing import counted

@@ -7,8 +7,8 @@ import numpy as np
 from colift.agents.agent import FRAME, Action, Observation, RobotObservation
 from colift.agents.control.anticipation import ARM_LAG
 from colift.agents.control.preview import preview_gains
-from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.trace import Trace
 from numpy.typing import NDArray
 

@@ -8,13 +8,13 @@ from typing import Any, ClassVar, Final, NamedTuple, cast
 import numpy as np
 from colift.agents.humans import SUBJECTS
 from colift.agents.rules import SCALARS, ArrayFunctions, N
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
 from numpy.typing import NDArray
 

@@ -4,10 +4,10 @@ import contextlib
 from collections.abc import Iterator
 
 from colift.benchmark.episode.kept_world import lift_in_kept_world, next_lift
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.tasks.touch import Touch
 
 

@@ -15,10 +15,10 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 from colift.agents.control.anticipation import Anticipation, FeatureWindow
-from colift.agents.errors import InputError
 from colift.agents.estimators.perceptron import Perceptron
+from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.data import LEADS, ROAMING, Timing, TrainingData, training_data
 from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
 from numpy.typing import NDArray

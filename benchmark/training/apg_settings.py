@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass, replace
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_task
+from colift.benchmark.tasks.level.task import LEVEL
 
 NAME: Final = "apg"
 

@@ -13,8 +13,8 @@ from functools import partial
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.submissions.network.policy import FIXED, Policy
+from colift.base.errors import InputError
 from colift.benchmark.training.course import Course, Point
 from colift.benchmark.training.result import Weights, checked_network, write_policy
 from colift.benchmark.training.validation import (

@@ -22,7 +22,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 import numpy as np
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 OBSERVATION: Final = 1

@@ -14,6 +14,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario, make_subject
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.labels import modes, stroke_ends
 from colift.benchmark.training.roaming import Roaming
 from colift.benchmark.world import since_reset
@@ -91,6 +92,7 @@ def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
         subject=make_subject(subject),
         control_period=period,
         latency=latency,
+        task=LEVEL,
     )
 
 

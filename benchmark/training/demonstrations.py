@@ -34,16 +34,17 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.humans import Partner
-from colift.agents.registry import SUITES, own_entries
 from colift.agents.senses import MOCAP_NOISE
-from colift.agents.text import decoded, read_bytes
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
+from colift.base.text import decoded, read_bytes
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from numpy.typing import NDArray
 
 FIRST_SEED: Final = 60_000

@@ -2,8 +2,8 @@
 
 from functools import cache
 
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.suites.catalogue import make_task
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.lesson import PolicyLesson
 from colift.benchmark.training.level_lesson import LevelLesson
 from colift.benchmark.training.touch_lesson import TouchLesson

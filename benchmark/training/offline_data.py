@@ -10,11 +10,11 @@ from typing import Any, Final
 import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError, error_text
-from colift.agents.extras import how_to_install
 from colift.agents.submissions.offline.policy import Window
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError, error_text
+from colift.base.extras import how_to_install
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.tasks.level.task import LEVEL
 from numpy.typing import NDArray
 
 FILES: Final = "data"

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 CLONE: Final = "clone"
 IQL: Final = "iql"

@@ -14,7 +14,7 @@ from colift.agents.humans.subject import BOUNDS
 from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import CURRICULUM, FIRST_SEED
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.data import Timing, scenario

@@ -14,7 +14,7 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.submissions.network.policy import FIXED
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training import robot_seat
 from colift.benchmark.training.actor_critic import (
     Experience,

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.training.validation import LEARNING_SEEDS
 
 NAME: Final = "ppo"

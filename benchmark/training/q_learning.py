@@ -19,6 +19,7 @@ from colift.agents.humans import SUBJECTS, Plan, Subject
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.level.task import LEVEL
 from numpy.typing import NDArray
 
 HEIGHT: Final = 0.13
@@ -80,7 +81,7 @@ def learn(seed: int, *, iterations: int = 100, subject: str = "S1") -> LearningT
     person = SUBJECTS[subject]
     duration = iterations * (1 + WAIT) * 0.1 + 1.0
     standing = StandingHuman(duration=duration)
-    lift = Lift(Scenario(behaviour="standing", human=standing, subject=person))
+    lift = Lift(Scenario(behaviour="standing", human=standing, subject=person, task=LEVEL))
     lift.reset(seed)
     table = _Table(lift)
     learner = QLearner(derive_seed(seed, "learner"))

@@ -9,10 +9,10 @@ from types import ModuleType
 from typing import Any, Final, TypeVar
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.submissions import network
 from colift.agents.submissions.network.policy import Network
 from colift.agents.submissions.new import write_files
+from colift.base.errors import InputError
 from colift.benchmark.training.course import Course, put_in_place, write_whole
 from numpy.typing import NDArray
 

@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Iterator
 from typing import Any
 
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 
 
 def import_sklearn(module: str) -> Any:

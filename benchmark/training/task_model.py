@@ -10,13 +10,13 @@ import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.control.adaptive_impedance import Gains, LearnedImpedance, Movement, adapt
 from colift.agents.control.learned_task import LearnedTask, velocity_inputs
-from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import GaussianMixture
 from colift.agents.policies.task_model import TaskModelController, TaskModelParameters
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.demonstrations import Demonstration
 from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
 from numpy.lib.stride_tricks import sliding_window_view

@@ -8,16 +8,16 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
-from colift.agents.errors import InputError
 from colift.agents.submissions import touch as submission
-from colift.agents.touch.touch_controller import TouchController, touch_network
-from colift.agents.touch.touch_law import (
+from colift.agents.tasks.touch.touch_controller import TouchController, touch_network
+from colift.agents.tasks.touch.touch_law import (
     TouchMemory,
     TouchNetwork,
     felt_action,
     inputs_of,
     touch_at_rest,
 )
+from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.touch import Touch

@@ -8,13 +8,13 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import Agent
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.world import since_reset
 from numpy.typing import NDArray

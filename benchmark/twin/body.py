@@ -7,7 +7,7 @@ from typing import Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.world.human_body import MUSCLE_TIME, REFLEX_LIMIT, BodyParameters
 from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH
 

@@ -7,12 +7,12 @@ from typing import Final
 import numpy as np
 from colift.agents.agent import Agent
 from colift.agents.humans import Partner
-from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.episode.episode import run_episode
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.twin.agents import play_agents, play_pairs
 from numpy.typing import NDArray
 

@@ -3,8 +3,8 @@
 import importlib
 import os
 
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 
 _ONE_THREAD = "--xla_cpu_multi_thread_eigen=false"
 

@@ -7,17 +7,17 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.humans import Embodied
 from colift.agents.humans.hand import HandMemory, NoiseStream, move_hand
 from colift.agents.rules import SCALARS
 from colift.agents.senses import MOCAP_NOISE
-from colift.benchmark.episode.level import Level
+from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import HUMANS, body_parameters
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.twin.body import CHUNK, DEPTH, Body, bodies
-from colift.benchmark.world.world import HISTORY_FRAMES
+from colift.benchmark.world.interface import HISTORY_FRAMES
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]

@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.humans.hand import drawn_noise
 from colift.agents.rules import Drawn
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import body_parameters

@@ -4,9 +4,8 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 
 import numpy as np
-from colift.agents.errors import InputError
 from colift.agents.spec import AgentSpec
-from colift.benchmark.episode.level import LEVEL
+from colift.base.errors import InputError
 from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.execution.runner import Run, run_suite
@@ -18,6 +17,7 @@ from colift.benchmark.results.baselines import (
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import FloatArray
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.sources import Source
 

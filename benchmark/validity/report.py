@@ -5,7 +5,7 @@ from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from typing import Any, Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.validity.prediction import SuitePrediction, predict
 from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.verdict import SuiteVerdict, judge, order_text, people_text

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.humans import Recorded
 from colift.agents.humans.copies import first_copy
-from colift.benchmark.live.scenarios import real_lifts
+from colift.base.errors import InputError
+from colift.benchmark.real_lifts.suites import real_lifts
 from colift.benchmark.suites.suite import Suite, plain_name
 
 FEWEST_LIFTS: Final = 2

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 from colift.agents.spec import AgentSpec
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.batches import Batch, Faults, run_batches
 from colift.benchmark.execution.runner import Run, placed
 from colift.benchmark.suites.hidden import keyed

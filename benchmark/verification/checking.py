@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import EvaluatorFault
 from colift.agents.real_time import POLICY_SHARE
 from colift.agents.spec import AgentSpec
+from colift.base.errors import EvaluatorFault
 from colift.benchmark.bundle import Results, results
-from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.level import LEVEL
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, Scenario
 from colift.benchmark.episode.turns import START
 from colift.benchmark.execution.batches import play
@@ -27,6 +26,7 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import Summary
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.verification.audit import audit, audited
 
 SUITE: Final = "quick-v1"

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.agents.registry import SUITES, entries
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, entries
 from colift.benchmark.bundle import Bundle, Difference, Results, differences, one_line, results
 from colift.benchmark.bundle.content import with_circumstances
 from colift.benchmark.bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
 from colift.benchmark.channels import Channel, channel_name
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import Run

@@ -5,14 +5,14 @@ from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
 import numpy as np
-from colift.agents.errors import EvaluatorFault, InputError, error_text
+from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.bundle import Bundle, one_line
 from colift.benchmark.bundle.files import EPISODES, MANIFEST, TRACES
 from colift.benchmark.channels import Channel
 from colift.benchmark.episode.blame import blaming_plugins
-from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.kept_world import drop_kept_world
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.replay import ReplayError, replay
 from colift.benchmark.episode.scenario import Scenario

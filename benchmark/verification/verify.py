@@ -7,7 +7,7 @@ from concurrent.futures import Executor
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import Bundle, Results, one_line, parse, read_files
 from colift.benchmark.bundle.files import LARGEST
 from colift.benchmark.bundle.reading import wrong_hashes

@@ -3,11 +3,7 @@
 from colift.benchmark.world.ball import Ball
 from colift.benchmark.world.bullet_world import BulletWorld
 from colift.benchmark.world.human_body import BodyParameters
-from colift.benchmark.world.nao_arms import NaoFarEnd
-from colift.benchmark.world.physics import PHYSICS, Physics
-from colift.benchmark.world.second_human import HumanFarEnd
-from colift.benchmark.world.servo import SERVO, Servo
-from colift.benchmark.world.world import (
+from colift.benchmark.world.interface import (
     HISTORY_FRAMES,
     Engine,
     FarEnd,
@@ -16,6 +12,10 @@ from colift.benchmark.world.world import (
     World,
     since_reset,
 )
+from colift.benchmark.world.nao_arms import NaoFarEnd
+from colift.benchmark.world.physics import PHYSICS, Physics
+from colift.benchmark.world.second_human import HumanFarEnd
+from colift.benchmark.world.servo import SERVO, Servo
 
 __all__ = [
     "HISTORY_FRAMES",

@@ -10,6 +10,7 @@ from colift.benchmark.world.ball import Ball, TableMotion
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.engine import BulletEngine, disconnect, load_urdf_text, new_client
 from colift.benchmark.world.human_body import BodyParameters, HumanBody
+from colift.benchmark.world.interface import HISTORY_FRAMES, FarEnd, Intended
 from colift.benchmark.world.physics import PHYSICS, Physics
 from colift.benchmark.world.table import (
     FAR_GRIP,
@@ -27,7 +28,6 @@ from colift.benchmark.world.table import (
     WEIGHT_SHARE,
     table_urdf,
 )
-from colift.benchmark.world.world import HISTORY_FRAMES, FarEnd, Intended
 
 _JOINTS: Final = [HANDS, PITCH]
 _ALL: Final = [HANDS, PITCH, SLIDE]

@@ -6,9 +6,9 @@ from pathlib import Path
 from typing import Final
 
 from colift.benchmark.world.bullet import pybullet, silent
+from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import GRAVITY
-from colift.benchmark.world.world import Engine
 
 
 @dataclass(frozen=True, kw_only=True)

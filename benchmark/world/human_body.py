@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import FRAME
+from colift.benchmark.world.interface import HISTORY_FRAMES
 from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
-from colift.benchmark.world.world import HISTORY_FRAMES
 
 REFLEX_LIMIT: Final = 0.02
 """Largest shift of the reference by a reflex [m]: reflexes correct small differences and do not

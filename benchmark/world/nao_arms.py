@@ -6,10 +6,10 @@ from typing import ClassVar, Final
 
 from colift.agents.agent import FRAME
 from colift.benchmark.world.engine import BulletEngine
+from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.nao_arm import NaoArm
 from colift.benchmark.world.servo import SERVO, Servo
 from colift.benchmark.world.table import PITCH, WEIGHT_SHARE
-from colift.benchmark.world.world import Engine
 from colift.robots.nao.facts import ARM
 from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
 

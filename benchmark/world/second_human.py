@@ -5,8 +5,8 @@ from typing import ClassVar
 
 from colift.agents.agent import FRAME
 from colift.benchmark.world.human_body import BodyParameters, HumanBody
+from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.table import GRAVITY
-from colift.benchmark.world.world import Engine
 
 
 @dataclass(frozen=True)

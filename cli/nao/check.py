@@ -7,8 +7,6 @@ from typing import Annotated, Any, Final
 
 import numpy as np
 import typer
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
 from colift.agents.hardware.claim import BEAT, holder
 from colift.agents.hardware.clocks import MonotonicClock, awake_or_asleep
 from colift.agents.hardware.lsl import LslCapture
@@ -17,6 +15,8 @@ from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.ports import Naoqi, RobotLostError
 from colift.agents.hardware.safety import LOWEST_STIFFNESS
 from colift.agents.hardware.setup import measure_rest
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.cli.nao.connections import (
     URL,
     HumanMarkers,

@@ -6,7 +6,6 @@ from typing import Annotated, Final
 
 import typer
 from colift.agents.agent import Agent
-from colift.agents.errors import InputError
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.decisions import Decider, Inline, Timed
 from colift.agents.hardware.lsl import Layout, LslCapture
@@ -14,6 +13,7 @@ from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.nao.session import NaoqiSession
 from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.ports import Clock, Naoqi, RobotLostError, TableCapture
+from colift.base.errors import InputError
 from colift.benchmark.hardware.laboratory import Conditions
 from colift.benchmark.hardware.simulated import SimulatedLaboratory
 from colift.benchmark.suites.catalogue import make_scenario

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Annotated, Any, Final
 
 import typer
-from colift.agents.errors import InputError
 from colift.agents.hardware.claim import claimed
 from colift.agents.hardware.loop import LoopSettings
 from colift.agents.hardware.operator import (
@@ -25,6 +24,7 @@ from colift.agents.hardware.trial_log import LoggedTrial, TrialLog, write_trial
 from colift.agents.hardware.watchdog import guarded
 from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.choice import checked_policy
+from colift.base.errors import InputError
 from colift.benchmark.bundle import check_bundle_folder, is_bundle, results, write_bundle
 from colift.benchmark.bundle.files import HARDWARE
 from colift.benchmark.episode.turns import policy_seed

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, optional_number, styled, table
-from colift.leaderboard.board.standings import HumanHumanScores, RankedRow
+from colift.leaderboard.core.standings import HumanHumanScores, RankedRow
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import SeasonInfo

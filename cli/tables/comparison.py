@@ -3,7 +3,7 @@
 from typing import Final
 
 from colift.benchmark.comparison.captions import marks_caption, title, undecided
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric

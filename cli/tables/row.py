@@ -6,7 +6,7 @@ from typing import Final
 from colift.benchmark.comparison.formatting import probability
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import table
-from colift.leaderboard.board.standings import Section
+from colift.leaderboard.core.standings import Section
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import BoardRow
 from rich.table import Table

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.suites.catalogue import make_task
+from colift.benchmark.tasks.level.task import LEVEL
 from docutils import nodes
 from markdown_text import table
 from sphinx.application import Sphinx

@@ -2,7 +2,7 @@
 
 import msgspec
 import sqlalchemy as sa
-from colift.leaderboard.database.database import Database
+from colift.leaderboard.database.connection import Database
 from colift.leaderboard.database.queries import (
     legible,
     read_entries,

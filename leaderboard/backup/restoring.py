@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import Final
 
 import sqlalchemy as sa
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.suites.hidden import commitment
-from colift.leaderboard.backup.backup import FORMAT, MARK, Backup, BackupContents, opened_tables
 from colift.leaderboard.backup.checking import check_tables
-from colift.leaderboard.database.database import FILE, URL, Database
+from colift.leaderboard.backup.writing import FORMAT, MARK, Backup, BackupContents, opened_tables
+from colift.leaderboard.database.connection import FILE, URL, Database
 from colift.leaderboard.database.queries import copy_tables
 from colift.leaderboard.database.schema import metadata, rank_groups
 from colift.leaderboard.storage.damage import DamagedError

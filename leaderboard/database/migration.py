@@ -4,7 +4,7 @@ from importlib.resources import as_file, files
 from typing import Final
 
 import sqlalchemy as sa
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.database.schema import metadata
 from colift.leaderboard.database.transactions import reading, writing
 

@@ -7,7 +7,7 @@ from typing import Any, Final
 import msgspec
 import numpy as np
 import sqlalchemy as sa
-from colift.agents.errors import error_text
+from colift.base.errors import error_text
 from colift.leaderboard.database.schema import entries, events, hidden_errors, metadata, seasons
 from colift.leaderboard.records.season import BoardEntry, Event, SeasonInfo
 from colift.leaderboard.storage.damage import DAMAGE, DamagedError

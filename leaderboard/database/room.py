@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Final
 
 import sqlalchemy as sa
-from colift.agents.errors import EvaluatorFault
 from colift.agents.submissions.folder import FULL, MIB
+from colift.base.errors import EvaluatorFault
 
 LEAST: Final = MIB // 4
 """Free space below which SQLite cannot open a database beside its file [bytes]: it needs a few

@@ -9,15 +9,15 @@ from importlib.resources import files
 from typing import Final
 
 from colift.agents import control
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import POLICIES, lookup, own_entries, summary
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.levels import Choice, choose, fault
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.sandbox.host.process import BUBBLEWRAP
 from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.submission import Submission
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.registry import POLICIES, lookup, own_entries, summary
 from colift.benchmark.verification.audit import AUDIT
 
 AUTHORS: Final = ("The colift developers",)

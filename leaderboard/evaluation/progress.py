@@ -5,8 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from colift.agents.errors import InputError
-from colift.benchmark.episode.episode import Episode
+from colift.base.errors import InputError
+from colift.benchmark.episode.loop import Episode
 
 Stage = Literal[
     "human-human baseline", "check", "public run", "audit", "verification", "hidden run"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from colift.benchmark.bundle.content import Results, real_time
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import summarise

@@ -4,7 +4,7 @@ from datetime import UTC, datetime, timedelta
 from typing import Final
 
 from colift.benchmark.statistics import Estimate
-from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.metrics import sort_key
 
 NONE: Final = "\N{EN DASH}"

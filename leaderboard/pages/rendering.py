@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from importlib.resources import files
 from typing import Any
 
-from colift.agents.errors import InputError
-from colift.agents.extras import how_to_install
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.drawn import error_words
 from colift.benchmark.episode.metric import drawn_series

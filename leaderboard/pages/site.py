@@ -7,8 +7,8 @@ from importlib.resources import as_file, files
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
-from colift.leaderboard.board.board import Board
+from colift.base.errors import InputError
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page, show
 from colift.leaderboard.pages.table import PAGES

@@ -17,10 +17,10 @@ from typing import Any, Final, Self
 
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.board import SUITE, Board
-from colift.leaderboard.board.seasons import ImportedSeason
+from colift.leaderboard.core.board import SUITE, Board
+from colift.leaderboard.core.seasons import ImportedSeason
 from colift.leaderboard.database.room import NoRoomError
-from colift.leaderboard.practice.practice import SUITES, practice_season
+from colift.leaderboard.practice.season import SUITES, practice_season
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, SeasonInfo
 from colift.leaderboard.storage.store import has_board
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from colift.agents.registry import own_policies
+from colift.base.registry import own_policies
 from colift.benchmark.bundle.files import EPISODES
 from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.statistics import FloatArray

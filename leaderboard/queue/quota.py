@@ -7,8 +7,8 @@ from datetime import UTC, datetime, timedelta
 from typing import Any, Final
 
 import sqlalchemy as sa
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import MIB
+from colift.base.errors import InputError
 from colift.leaderboard.database.schema import jobs
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import sqlalchemy as sa
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.database.schema import jobs
 from colift.leaderboard.evaluation.progress import Stage

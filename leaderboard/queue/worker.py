@@ -12,18 +12,18 @@ from textwrap import indent
 from typing import Final
 
 import sqlalchemy as sa
-from colift.agents.errors import EvaluatorFault, InputError, error_text
 from colift.agents.spec import AUTO
+from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.execution.runner import placed
-from colift.leaderboard.board.board import BUILTIN, LOCAL, Board
+from colift.leaderboard.core.board import BUILTIN, LOCAL, Board
 from colift.leaderboard.evaluation.entrant import (
     Entrant,
     NoSandboxError,
     board_level,
     builtin_entrant,
 )
-from colift.leaderboard.evaluation.evaluation import (
+from colift.leaderboard.evaluation.evaluate import (
     EntrantResult,
     episode_count,
     evaluate_entrant,

@@ -4,11 +4,11 @@ import functools
 from collections.abc import Mapping
 from typing import Any, Final
 
-from colift.agents.registry import SUITES, entries
-from colift.benchmark.episode.level import LEVEL
+from colift.base.registry import SUITES, entries
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, on_boards, second_axis
 from colift.benchmark.statistics import MeanWithMissing
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import LEVEL
 
 _MISSING: Final = 1000.0
 """Weight of a missing value in a sort key: more than any mean."""

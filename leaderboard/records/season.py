@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Literal, Self
 
 import msgspec
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.suites.hidden import commitment, hidden_suite
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.records.row import BoardRow

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.benchmark.bundle import FILES, Bundle, read_bundle
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.leaderboard.replays.replay import Ghost, Which, play_ghost, replay_content
 from colift.leaderboard.storage.files import read_json, write_json
 

@@ -48,8 +48,8 @@ from colift.agents.agent import FRAME
 from colift.agents.humans import Plan, Played, goal_error_mm
 from colift.benchmark.bundle import one_line
 from colift.benchmark.episode.blame import blaming_plugins
-from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace

@@ -8,7 +8,7 @@ from datetime import datetime
 from typing import Any, Self
 
 from colift.benchmark.results.strata import StratumScore
-from colift.leaderboard.board.standings import RankedRow, Section
+from colift.leaderboard.core.standings import RankedRow, Section
 from colift.leaderboard.records.job import Job, State
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import Event

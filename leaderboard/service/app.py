@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Final
 
 import anyio.to_thread
-from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.client import API
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import Queue, Quota
 from colift.leaderboard.service import page_routes as pages

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, Final
 from urllib.parse import urlsplit
 
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
 from colift.leaderboard.client import API
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.service.documentation import Documentation

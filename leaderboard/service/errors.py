@@ -7,8 +7,8 @@ import secrets
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Final
 
-from colift.agents.errors import InputError
-from colift.leaderboard.database.database import AWAY
+from colift.base.errors import InputError
+from colift.leaderboard.database.connection import AWAY
 from colift.leaderboard.database.room import is_full
 from colift.leaderboard.queue import QuotaError
 from colift.leaderboard.storage.damage import DamagedError

@@ -6,7 +6,7 @@ from typing import Final
 from colift.agents.submissions.folder import LIMITS
 from colift.agents.submissions.packages import PACKAGES
 from colift.benchmark.results.strata import StratumScore
-from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.service.answers import EntryAnswer, RulesAnswer, StandingAnswer
 from colift.leaderboard.service.dependencies import (

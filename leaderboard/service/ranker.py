@@ -5,7 +5,7 @@ import threading
 from typing import Final
 
 import sqlalchemy as sa
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 
 log: Final = logging.getLogger("colift.service")
 

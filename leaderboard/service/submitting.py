@@ -5,7 +5,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Annotated, Final
 
 import sqlalchemy as sa
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.records.job import Job
 from colift.leaderboard.service.answers import JobAnswer, SubmissionAnswer, SubmitterAnswer
 from colift.leaderboard.service.dependencies import (

@@ -11,11 +11,11 @@ from pathlib import Path
 from typing import IO, Final
 
 import sqlalchemy as sa
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import MIB
 from colift.agents.submissions.manifest import MANIFEST
 from colift.agents.submissions.near_manifest import PACK, no_manifest
-from colift.leaderboard.board.board import Board
+from colift.base.errors import InputError
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.database.schema import jobs
 from colift.leaderboard.service.dependencies import ServiceState
 from colift.leaderboard.service.errors import CLOSE, problem

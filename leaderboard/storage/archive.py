@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, BinaryIO, Final
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import CHUNK, LIMITS, MIB, NAME, FolderLimits, is_part
 from colift.agents.submissions.line_ends import is_text, with_unix_line_ends
+from colift.base.errors import InputError
 
 RATIO: Final = 200
 """Largest ratio of the size of all files to that of the archive."""

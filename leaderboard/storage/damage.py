@@ -3,7 +3,7 @@
 from typing import Final
 
 import msgspec
-from colift.agents.errors import EvaluatorFault
+from colift.base.errors import EvaluatorFault
 
 DAMAGE: Final = (
     ValueError,

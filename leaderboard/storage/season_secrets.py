@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError, error_text
+from colift.base.errors import InputError, error_text
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import SECRET_BYTES
 from colift.leaderboard.storage.damage import DAMAGE, DamagedError

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Final, Self
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import read_folder
 from colift.agents.submissions.submission import Submission
+from colift.base.errors import InputError
 from colift.leaderboard.storage.files import sync, sync_tree
 
 if sys.platform != "win32":

@@ -24,9 +24,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.submissions.new import check_author
 from colift.agents.submissions.submission import Submission, copy_submission, read_submission
+from colift.base.errors import InputError
 from colift.leaderboard.storage.archive import pack_archive
 from colift.leaderboard.storage.files import read_json, sync, sync_tree, write_json
 from colift.leaderboard.storage.season_secrets import FOLDER, PRIVATE_FILE, SeasonSecrets

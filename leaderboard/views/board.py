@@ -7,9 +7,9 @@ from weakref import WeakKeyDictionary
 
 from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import HumanHumanScores
-from colift.leaderboard.board.tables import Table
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis

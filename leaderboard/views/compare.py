@@ -12,7 +12,7 @@ from typing import Any, Final
 from colift.agents.agent import FRAME
 from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
-from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
 from colift.leaderboard.views.axis import make_axis

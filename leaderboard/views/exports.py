@@ -4,9 +4,9 @@ import json
 import uuid
 from typing import Any, Final
 
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import frame
 from colift.leaderboard.client import API
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import frame
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.page import Content, Page, Visit, find_season
 

@@ -3,9 +3,9 @@
 from datetime import timedelta
 from typing import Final
 
-from colift.leaderboard.board.board import Board
 from colift.leaderboard.client import API
-from colift.leaderboard.evaluation.evaluation import stage_episodes
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.evaluation.evaluate import stage_episodes
 from colift.leaderboard.evaluation.progress import HIDDEN, Stage
 from colift.leaderboard.records.job import Job
 from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season

@@ -7,9 +7,9 @@ from typing import Final
 
 from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
 from colift.benchmark.statistics import Estimate, MeanWithMissing
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import RankedRow
-from colift.leaderboard.board.tables import Table
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import RankedRow
+from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics, sort_key
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.views.asked import ROWS, Asked

@@ -5,7 +5,7 @@ from typing import Final
 from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from colift.agents.sandbox.protocol import LIMITS
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.bounds import bounds_of
 from colift.leaderboard.views.page import Content, Page, Visit, find_season, ordered_seasons

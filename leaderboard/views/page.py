@@ -5,8 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final
 
-from colift.leaderboard.board.board import Board
 from colift.leaderboard.client import API
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import Asked

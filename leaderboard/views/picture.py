@@ -8,8 +8,8 @@ from weakref import WeakKeyDictionary
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
 from colift.benchmark.episode.metric import Metric
-from colift.leaderboard.board.standings import HumanHumanScores
-from colift.leaderboard.board.tables import Table
+from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import picture_axes
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.views.bounds import PublicBound

@@ -8,9 +8,9 @@ from typing import Final
 
 from colift.benchmark.results.strata import human_human_mean, mean_of_strata
 from colift.benchmark.statistics import Estimate
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import RANKED, RankedRow
 from colift.leaderboard.client import API
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import RANKED, RankedRow
 from colift.leaderboard.database.schema import entries
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (

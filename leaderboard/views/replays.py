@@ -3,7 +3,7 @@
 import contextlib
 from typing import Any, Final
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.replays.chosen import has_replays, replays_of
 from colift.leaderboard.replays.html import KEYS, SCRIPTS, replay_data, replay_files, replay_page
 from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season

@@ -10,8 +10,8 @@ from colift.benchmark.results.scores import Stratum
 from colift.benchmark.results.strata import StratumScore
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import RankedRow
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
 from colift.leaderboard.views.axis import make_axis

@@ -1,6 +1,6 @@
 """The suite of a season, if this colift still plays it."""
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.leaderboard.records.season import SeasonInfo
 

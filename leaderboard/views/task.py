@@ -4,12 +4,12 @@ import functools
 import inspect
 from dataclasses import dataclass
 
-from colift.agents.registry import SUITES, entries
-from colift.benchmark.episode.level import LEVEL
+from colift.base.registry import SUITES, entries
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.verification.checking import SUITE as CHECKED
 from colift.benchmark.verification.checking import checked_with
-from colift.leaderboard.board.board import SUITE as PLAYED
+from colift.leaderboard.core.board import SUITE as PLAYED
 
 
 @dataclass(frozen=True, kw_only=True)

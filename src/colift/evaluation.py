@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import cast
 
 from colift.agents.agent import Agent
-from colift.agents.errors import InputError
-from colift.agents.identity import source_hash
-from colift.agents.loading.loading import source_digest
+from colift.agents.loading.policy_spec import source_digest
 from colift.agents.spec import AUTO, NONE, AgentSpec, InProcess
 from colift.agents.submissions.choice import choose_policy
+from colift.base.errors import InputError
+from colift.base.identity import source_hash
 from colift.benchmark.bundle import results
 from colift.benchmark.channels import Channel, make_channel
 from colift.benchmark.execution.pool import local_pool

@@ -1,6 +1,6 @@
 """Lists of the available policies, suites and behaviours."""
 
-from colift.agents.registry import HUMANS, POLICIES, SUITES, entries, playing
+from colift.base.registry import HUMANS, POLICIES, SUITES, entries, playing
 
 
 def list_policies(task: str | None = None) -> list[str]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from rich.console import Console
 
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.table import table_row, treated
 from colift.benchmark.execution.runner import Run

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from colift.agents.actions import ActionError, checked_action
 from colift.agents.agent import FRAME, Agent, Explaining, RobotObservation
-from colift.agents.errors import InputError, PolicyError
 from colift.agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
-from colift.agents.plugins import article, error_at, place_of
 from colift.agents.policies.copy import Copy
-from colift.agents.registry import TASKS, entries
+from colift.base.errors import InputError, PolicyError
+from colift.base.plugins import article, error_at, place_of
+from colift.base.registry import TASKS, entries
 from colift.benchmark.bundle.recipe import FROM_NAMES, Recipe
 from colift.benchmark.episode.blame import blaming_plugins, check_episode
 from colift.benchmark.episode.conformance import (
@@ -28,9 +28,8 @@ from colift.benchmark.episode.conformance import (
     rewards_fault,
     task_fault,
 )
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.episode.task import Task
@@ -38,6 +37,7 @@ from colift.benchmark.robots.conformance import robot_conformance_fault
 from colift.benchmark.robots.robot import Robot
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, plain_name
+from colift.benchmark.tasks.level.task import LEVEL
 
 ROUNDING: Final = 1e-9
 """Rounding of heights [m]."""

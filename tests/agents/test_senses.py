@@ -2,8 +2,10 @@
 
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.observations import AgreeObservation, BallObservation, HapticObservation
 from colift.agents.senses import layout
+from colift.agents.tasks.agree.observation import AgreeObservation
+from colift.agents.tasks.ball.observation import BallObservation
+from colift.agents.tasks.touch.observation import HapticObservation
 from colift.benchmark.suites.catalogue import make_task
 
 TABLES = {

@@ -13,8 +13,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import own_policies
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.registry import own_policies
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import pytest
 from colift.cli.main import main
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 
 
 class Done(NamedTuple):

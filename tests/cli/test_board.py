@@ -4,11 +4,11 @@ import json
 import os
 
 import pytest
-from colift.agents.registry import SUITES, entries
+from colift.base.registry import SUITES, entries
 from colift.benchmark.results.scores import ScoreTable
 from colift.cli.tables.board import board_table
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue
 from rich.console import Console
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import pytest
 from colift.agents.loading.description import described, field_docstrings
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import summary
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.registry import summary
 from colift.cli.listing import SECTIONS
 from colift.listing import list_policies
 

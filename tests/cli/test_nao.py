@@ -11,8 +11,8 @@ from contextlib import closing, contextmanager
 
 import numpy as np
 import pytest
-from colift.agents.extras import how_to_install
 from colift.agents.hardware.trial_log import read_trial
+from colift.base.extras import how_to_install
 
 from ..agents.hardware.conftest import PatientSession
 

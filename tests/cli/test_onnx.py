@@ -8,10 +8,10 @@ import pytest
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
-from colift.agents.registry import SUITES, entries
 from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import read_submission
+from colift.base.registry import SUITES, entries
 
 from ..agents.onnx.networks import (
     DOUBLE,

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import httpx
 import pytest
-from colift.agents.extras import how_to_install
-from colift.benchmark.live.session import EVENTS
+from colift.base.extras import how_to_install
+from colift.benchmark.real_lifts.session_folder import EVENTS
 
-from ..leaderboard.live.pages import GRIP, Page, new_session
+from ..live.web.pages import GRIP, Page, new_session
 
 
 def descendants(process):

@@ -3,14 +3,14 @@
 import sys
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.levels import VERIFIABLE, working_levels
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.submissions import choice
 from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.trusted import TrustedSubmission
+from colift.base.errors import InputError
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.cli.run import run

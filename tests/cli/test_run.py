@@ -10,8 +10,8 @@ import time
 from pathlib import Path
 
 import pytest
-from colift.agents.extras import how_to_install
 from colift.agents.submissions.new import write_template
+from colift.base.extras import how_to_install
 from colift.benchmark.execution.journal import journal_path
 from colift.benchmark.execution.records import records
 from colift.benchmark.profiling.loopback import loopback_cluster

@@ -11,11 +11,11 @@ from pathlib import Path
 
 import httpx
 import pytest
-from colift.agents.extras import how_to_install
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.base.extras import how_to_install
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 
-from ..leaderboard.live.pages import Page, new_session
+from ..live.web.pages import Page, new_session
 
 
 def parent(process):

@@ -9,9 +9,9 @@ import sys
 import urllib.request
 
 import pytest
-from colift.agents.registry import SUITES, entries
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.base.registry import SUITES, entries
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 
 from ..leaderboard import tiny
 from ..leaderboard.signed import write_signed

@@ -4,7 +4,7 @@ import dataclasses
 import json
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run

@@ -7,7 +7,7 @@ import re
 import shutil
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.episode.metric import SCORING

@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from colift.agents.registry import SUITES, entries
+from colift.base.registry import SUITES, entries
 from colift.benchmark.suites.suite import make_suite
 from colift.testing import check_suite
 

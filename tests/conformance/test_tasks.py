@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from colift.agents.registry import TASKS, entries, lookup
-from colift.benchmark.episode.level import LEVEL, Level
+from colift.base.registry import TASKS, entries, lookup
+from colift.benchmark.tasks.level.task import LEVEL, Level
 from colift.testing import check_task
 
 

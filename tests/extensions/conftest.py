@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from colift.agents.registry import entries
+from colift.base.registry import entries
 
 from ..cli.conftest import colift
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.humans import Smooth
-from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import Level
 
 ENTRY_POINTS = """\
 [colift.tasks]

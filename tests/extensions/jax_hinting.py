@@ -7,8 +7,8 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.training import apg
 from colift.benchmark.training.apg_settings import ApgSettings

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.humans import Smooth
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.metric import Metric, metric_table
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.suites.suite import Suite, make_suite
+from colift.benchmark.tasks.level.task import Level
 
 ENTRY_POINTS = """\
 [colift.tasks]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.rendering.bodies import label_of, shown_body
 from colift.benchmark.rendering.scene import Scene
 from colift.benchmark.robots.robot import make_robot

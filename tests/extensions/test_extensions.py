@@ -5,8 +5,8 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.registry import HUMANS, SUITES, TASKS, entries, lookup
+from colift.base.errors import InputError
+from colift.base.registry import HUMANS, SUITES, TASKS, entries, lookup
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.verify import verify
 from colift.testing import check_behaviour, check_suite, check_task

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import TASKS, lookup
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.base.registry import TASKS, lookup
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite

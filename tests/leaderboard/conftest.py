@@ -7,19 +7,17 @@ from pathlib import Path
 
 import psycopg
 import pytest
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import SUITES, entries
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.submissions.manifest import Manifest
 from colift.agents.submissions.new import write_template
+from colift.base.registry import SUITES, entries
 from colift.benchmark.results.scores import ScoreTable
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.database.database import Database
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.database.connection import Database
 from colift.leaderboard.evaluation.entrant import Entrant
-from colift.leaderboard.evaluation.evaluation import play_human_human
+from colift.leaderboard.evaluation.evaluate import play_human_human
 from colift.leaderboard.records.season import Season
-from playwright.sync_api import Browser
 
-from .browser import browser
 from .postgresql import server
 from .tiny import ENTRY, tiny
 
@@ -40,13 +38,6 @@ class Clock:
 
     def turn(self, **more: float) -> None:
         self.now += timedelta(**more)
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Browser]:
-    """A browser, as long as a module needs it: its event loop keeps others from running."""
-    with browser() as opened:
-        yield opened
 
 
 @pytest.fixture(scope="module")

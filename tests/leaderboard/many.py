@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from colift.benchmark.statistics import Estimate
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.database.queries import read_error_numbers, read_errors, record_entry
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.records.season import BoardEntry

@@ -7,11 +7,11 @@ import pytest
 import sqlalchemy as sa
 from alembic.autogenerate import compare_metadata
 from alembic.migration import MigrationContext
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard import database as tables
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.database.database import Database
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.database.connection import Database
 from colift.leaderboard.database.migration import HEAD, migrate
 from colift.leaderboard.database.queries import read_entries, read_error_numbers, read_errors
 from colift.leaderboard.database.schema import APPEND_ONLY, metadata

@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 
 from .rows import add
 from .signed import write_signed

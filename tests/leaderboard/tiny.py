@@ -10,7 +10,7 @@ import signal
 import sys
 from importlib.metadata import EntryPoint
 
-from colift.agents.registry import SUITES, entries
+from colift.base.registry import SUITES, entries
 from colift.benchmark.suites import suite
 from colift.cli.main import main
 

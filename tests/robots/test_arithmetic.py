@@ -7,7 +7,7 @@ from pathlib import Path
 import colift.robots
 import numpy as np
 import pytest
-from colift.agents.identity.code import Code
+from colift.base.identity.code import Code
 from colift.benchmark.episode.identity import PLAYS_AND_SCORES
 from colift.robots.arithmetic import dot, each, matmul
 

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.nao.naoqi import NAMES, NaoqiArm
 from colift.agents.hardware.ports import Naoqi
+from colift.base.errors import InputError
 
 HOTTEST: Final = 70.0
 """Temperature of an arm joint [degrees Celsius] from which no lift begins. The firmware reduces the

@@ -6,9 +6,9 @@ import time
 from collections.abc import Sequence
 from typing import Any, Final, NoReturn
 
-from colift.agents.errors import InputError
 from colift.agents.hardware.missing import import_optional
 from colift.agents.hardware.ports import RobotLostError
+from colift.base.errors import InputError
 
 CONNECT_TIME: Final = 5.0
 """Longest time to connect [s]."""

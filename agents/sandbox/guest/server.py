@@ -30,12 +30,10 @@ import numpy.polynomial
 import numpy.random
 from colift.agents.actions import ActionError, checked_action
 from colift.agents.agent import Agent, Explaining
-from colift.agents.errors import InputError, error_text
 from colift.agents.loading.description import described
 from colift.agents.loading.late import import_late
-from colift.agents.loading.loading import PolicySpec
 from colift.agents.loading.parameters import make_with, read_values
-from colift.agents.registry import summary
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.guest.filters import CHANNEL, FORKING, LIFT, install
 from colift.agents.sandbox.protocol import (
     AGENTS,
@@ -50,6 +48,8 @@ from colift.agents.sandbox.protocol import (
     packed,
 )
 from colift.agents.traced import own_traceback
+from colift.base.errors import InputError, error_text
+from colift.base.registry import summary
 
 _OURS: Final = f"{Path(__file__).parent}/"
 """Colift's own files, whose lines in a traceback would not help the policy's author."""

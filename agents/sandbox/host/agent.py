@@ -8,13 +8,13 @@ from typing import Any, Final, NoReturn
 
 import numpy as np
 from colift.agents.agent import Action, Observation
-from colift.agents.errors import EvaluatorFault, PolicyError
 from colift.agents.loading.description import ParameterText
 from colift.agents.sandbox.host.cell import Cell
 from colift.agents.sandbox.host.connection import Connection
 from colift.agents.sandbox.host.output import clean
 from colift.agents.sandbox.host.sandbox import Load, Sandbox
 from colift.agents.sandbox.protocol import INTERNALS, NAME, OUTPUT, REASON, Limits
+from colift.base.errors import EvaluatorFault, PolicyError
 
 TURNS: Final = 8
 """Turns on one processor before the scheduler may choose another."""

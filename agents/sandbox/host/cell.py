@@ -7,10 +7,10 @@ import weakref
 from collections.abc import Callable
 from typing import Any, Final
 
-from colift.agents.errors import EvaluatorFault, PolicyError
 from colift.agents.sandbox.host.connection import Connection
 from colift.agents.sandbox.host.output import Output, clean
 from colift.agents.sandbox.protocol import CLOSED, END, ENDED, FORK, OF_LIFT, REASON
+from colift.base.errors import EvaluatorFault, PolicyError
 
 _END_SECONDS: Final = 6.0
 """Time limit for the processes of a lift to end [s]."""

@@ -7,10 +7,10 @@ import time
 from dataclasses import dataclass
 from typing import Any, Final
 
-from colift.agents.errors import EvaluatorFault, PolicyError
 from colift.agents.sandbox.host.output import Output
 from colift.agents.sandbox.host.status import Status, told
 from colift.agents.sandbox.protocol import Channel, ClosedError, Limits, WireError, packed
+from colift.base.errors import EvaluatorFault, PolicyError
 
 _REPORT_SECONDS: Final = 1.0
 """Time limit for the report of a process that has closed the connection [s]."""

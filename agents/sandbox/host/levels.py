@@ -16,12 +16,12 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-from colift.agents.errors import EvaluatorFault, InputError, PolicyError
 from colift.agents.sandbox.host.agent import allowed, remote_agent
 from colift.agents.sandbox.host.process import BUBBLEWRAP, LANDLOCK, LIMITS
 from colift.agents.sandbox.host.refusals import in_words
 from colift.agents.sandbox.host.sandbox import Load, Sandbox
 from colift.agents.sandbox.protocol import AGENTS, SECRETS, Assignment, Limits
+from colift.base.errors import EvaluatorFault, InputError, PolicyError
 
 log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""

@@ -11,12 +11,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Final
 
-from colift.agents.errors import InputError, PolicyError
 from colift.agents.loading.description import ParameterText
 from colift.agents.sandbox.host.agent import RemoteAgent, remote_agent
 from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.sandbox import Load, Sandbox
 from colift.agents.sandbox.protocol import AGENTS, LIMITS, Assignment, Limits
+from colift.base.errors import InputError, PolicyError
 
 KEPT: Final = 4
 """Sandboxes that a thread keeps running: the most recently used."""

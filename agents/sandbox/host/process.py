@@ -14,11 +14,11 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.errors import EvaluatorFault
 from colift.agents.sandbox.host.control_group import ControlGroup
 from colift.agents.sandbox.host.output import clean
 from colift.agents.sandbox.host.view import View, environment, view
 from colift.agents.sandbox.protocol import AGENTS, MIB, ORDER, REASON, Limits
+from colift.base.errors import EvaluatorFault
 
 BUBBLEWRAP: Final = "bubblewrap"
 LANDLOCK: Final = "landlock"

@@ -7,13 +7,13 @@ from collections import Counter
 from pathlib import Path
 from typing import Final, NamedTuple
 
-from colift.agents.errors import EvaluatorFault, PolicyError
 from colift.agents.sandbox.host.cell import Cell
 from colift.agents.sandbox.host.connection import Connection
 from colift.agents.sandbox.host.output import Output
 from colift.agents.sandbox.host.process import ForkServer
 from colift.agents.sandbox.host.status import Status
 from colift.agents.sandbox.protocol import Assignment, Limits
+from colift.base.errors import EvaluatorFault, PolicyError
 
 _FAILURES: Final = 3
 """Cells of a policy that may fail before no further one is started. A policy that is loaded again

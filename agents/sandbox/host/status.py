@@ -6,8 +6,8 @@ import socket
 import time
 from typing import Final
 
-from colift.agents.errors import EvaluatorFault, PolicyError
 from colift.agents.sandbox.protocol import MIB, OF_LIFT, Limits
+from colift.base.errors import EvaluatorFault, PolicyError
 
 _REFUSALS: Final = {
     "processes": "started a process: a policy has only its own",

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from colift.agents.touch.touch_controller import TouchController, read_touch
+from colift.agents.tasks.touch.touch_controller import TouchController, read_touch
 
 
 class Policy(TouchController):

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metrics import stroke_smoothness
 from colift.benchmark.episode.smoothness import sparc
 from colift.benchmark.paper.evidence import Evidence

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.paper.evidence import Evidence
 from colift.benchmark.paper.exhibits import Claim, p_value_text

@@ -5,8 +5,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from colift.agents.agent import FRAME, Action, Observation, RobotObservation
 from colift.agents.humans.stroke import replan
-from colift.benchmark.episode.episode import Episode, run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.tasks.agree.task import hurdles_of
 from colift.benchmark.tasks.rehearsal import Foreknowing, raised
 from numpy.typing import NDArray

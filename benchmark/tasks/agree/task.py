@@ -7,9 +7,11 @@ from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 from colift.agents.agent import FRAME, Agent, Observation
-from colift.agents.errors import InputError
 from colift.agents.humans import Plan
-from colift.agents.humans.agree import (
+from colift.agents.humans.person import Person
+from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
+from colift.agents.senses import Sense
+from colift.agents.tasks.agree import (
     Hurdle,
     HurdlePlan,
     Negotiates,
@@ -18,10 +20,8 @@ from colift.agents.humans.agree import (
     secret,
     with_secret,
 )
-from colift.agents.humans.person import Person
-from colift.agents.observations import HURDLE_SENSES
-from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
-from colift.agents.senses import Sense
+from colift.agents.tasks.agree.observation import HURDLE_SENSES
+from colift.base.errors import InputError
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores

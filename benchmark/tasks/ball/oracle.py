@@ -6,9 +6,9 @@ from typing import Final, NamedTuple
 import numpy as np
 from colift.agents.agent import FRAME, Action, Observation
 from colift.agents.control.anticipation import ARM_LAG
-from colift.agents.policies.ball_game import BallGame
-from colift.benchmark.episode.episode import Episode, run_episode
+from colift.agents.tasks.ball.ball_game import BallGame
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.world.ball import ROLLING
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 from numpy.typing import NDArray

@@ -8,11 +8,11 @@ from typing import Any, ClassVar, Final, NamedTuple
 import numpy as np
 from colift.agents.agent import HISTORY, Agent, Observation
 from colift.agents.humans import Plan
-from colift.agents.humans.ball import BallPartner, BallPlan, BallSenses, Steers, with_ball
 from colift.agents.humans.person import Person
-from colift.agents.observations import BALL_SENSES
 from colift.agents.rules import ArrayFunctions, Drawn, N, View
 from colift.agents.senses import HEIGHT_BOUND, Sense
+from colift.agents.tasks.ball import BallPartner, BallPlan, BallSenses, Steers, with_ball
+from colift.agents.tasks.ball.observation import BALL_SENSES
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores

@@ -1,8 +1,8 @@
 """The oracle of intended poses: it knows the human's plan for both ends."""
 
 import numpy as np
-from colift.benchmark.episode.episode import Episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.rehearsal import rehearse_lift
 from numpy.typing import NDArray

@@ -8,9 +8,9 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 from colift.agents.agent import Agent
 from colift.agents.humans import Plan
-from colift.agents.humans.intent import Companion, Leads, PosePlan
 from colift.agents.humans.person import Person
 from colift.agents.rules import ArrayFunctions, N
+from colift.agents.tasks.intent import Companion, Leads, PosePlan
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores

@@ -12,7 +12,7 @@ from colift.agents.control.adaptive_impedance import (
     certainty,
     compliance,
 )
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 TOLERANCE = 0.01
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 from colift.agents.control.anticipation import ARM_LAG, FeatureHistory, FeatureWindow
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 
 
 def view(human, hand, command, time):

@@ -12,8 +12,8 @@ from colift.agents.control.learned_task import (
     task_json,
     velocity_inputs,
 )
-from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import Conditional, GaussianMixture
+from colift.base.errors import InputError
 
 VELOCITIES = Conditional(
     mean=np.array([0.1, 0.2, -0.1]),

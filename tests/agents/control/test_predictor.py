@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 from colift.agents.control.predictor import DEFAULT_PERIOD, Predictor, PredictorParameters
-from colift.agents.errors import InputError
 from colift.agents.estimators.confidence import LITERAL, likelihood
 from colift.agents.estimators.motion_filter import MotionFilter, MotionFilterParameters
 from colift.agents.estimators.residuals import chi_square_tail
+from colift.base.errors import InputError
 
 PRECISION = 0.7e-3 / 3
 """Standard deviation of the motion capture [m]."""

@@ -12,9 +12,9 @@ from colift.agents.control.recurrent import (
     read_gated,
 )
 from colift.agents.control.recurrent_controller import RecurrentController
-from colift.agents.errors import InputError
 from colift.agents.policies.extrapolate import Extrapolate
 from colift.agents.policies.learned import Learned, LearnedParameters
+from colift.base.errors import InputError
 
 UNITS = 3
 

@@ -3,8 +3,8 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.confidence import LITERAL, Confidence, likelihood
+from colift.base.errors import InputError
 
 ROOT = "standard deviation as rho"
 FORGETTING = [0.05, 0.45, 0.9, 1.0]

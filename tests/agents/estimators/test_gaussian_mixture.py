@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import GaussianMixture, GaussianMixtureRegression
+from colift.base.errors import InputError
 
 ONE = GaussianMixture(
     weights=np.ones(1),

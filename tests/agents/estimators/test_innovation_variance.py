@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.innovation_variance import (
     InnovationVariance,
     InnovationVarianceParameters,
 )
+from colift.base.errors import InputError
 
 
 def watch(heights, forecast, period=0.1, **values):

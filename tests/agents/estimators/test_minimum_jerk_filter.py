@@ -5,13 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke
 from colift.agents.estimators.minimum_jerk_filter import (
     MinimumJerkFilter,
     MinimumJerkFilterParameters,
 )
 from colift.agents.estimators.minimum_jerk_process import MinimumJerkProcess
+from colift.base.errors import InputError
 from scipy.stats import chi2
 
 TRUTH = MinimumJerkFilterParameters()

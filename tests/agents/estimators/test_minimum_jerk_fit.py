@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke, profile
 from colift.agents.estimators.minimum_jerk_fit import MinimumJerkFit, MinimumJerkFitParameters
+from colift.base.errors import InputError
 
 NOISE_FREE = 1e-5
 

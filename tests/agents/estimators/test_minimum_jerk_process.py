@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke
 from colift.agents.estimators.minimum_jerk_process import (
     MinimumJerkProcess,
     minimum_jerk_transition,
 )
+from colift.base.errors import InputError
 
 STROKE = MinimumJerkStroke(start=0.04, end=0.23, onset=0.0, duration=2.0)
 SHARP = MinimumJerkProcess(shortest=0.1, softness=0.001)

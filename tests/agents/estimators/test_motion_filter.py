@@ -5,13 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.motion_filter import (
     MotionFilter,
     MotionFilterParameters,
     process_covariance,
     transition,
 )
+from colift.base.errors import InputError
 from scipy.linalg import expm, solve_discrete_are
 from scipy.stats import chi2
 

@@ -3,8 +3,8 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.perceptron import Perceptron
+from colift.base.errors import InputError
 
 
 def made(*sizes, seed=0):

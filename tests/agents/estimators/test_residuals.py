@@ -2,9 +2,9 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.motion_filter import MotionFilter, MotionFilterParameters
 from colift.agents.estimators.residuals import LONGEST, ResidualConfidence, chi_square_tail
+from colift.base.errors import InputError
 
 
 @pytest.mark.parametrize(

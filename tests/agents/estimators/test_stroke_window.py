@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke
 from colift.agents.estimators.stroke_window import StrokeWindow, StrokeWindowParameters
+from colift.base.errors import InputError
 
 LIFT = MinimumJerkStroke(start=0.0, end=0.2, onset=1.03, duration=2.0)
 

@@ -14,7 +14,7 @@ from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.ports import RobotLostError
 from colift.agents.hardware.trial_end import AfterDuration
 from colift.agents.hardware.trial_log import LoggedTrial
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.hardware.laboratory import Conditions
 from colift.benchmark.hardware.simulated import SimulatedLaboratory
 from colift.benchmark.suites.catalogue import make_scenario

@@ -3,13 +3,13 @@
 import time
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.claim import KEY, NOBODY, STALE, RobotClaim, claimed, holder
 from colift.agents.hardware.clocks import MonotonicClock
 from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.ports import RobotTakenError
 from colift.agents.hardware.stops import StopTrialError
+from colift.base.errors import InputError
 
 from .conftest import PatientSession
 

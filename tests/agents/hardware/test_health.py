@@ -4,9 +4,9 @@ import re
 from contextlib import closing
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.nao.health import findings, refuse_unless_well
 from colift.agents.hardware.nao.naoqi import NaoqiArm
+from colift.base.errors import InputError
 
 from .conftest import Lab
 

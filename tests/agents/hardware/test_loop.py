@@ -5,9 +5,9 @@ import threading
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.loop import LoopSettings
 from colift.agents.hardware.stops import HoldReason, Stop
+from colift.base.errors import InputError
 from colift.robots.nao.facts import JOINTS
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

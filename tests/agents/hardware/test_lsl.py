@@ -7,9 +7,9 @@ import time
 from contextlib import closing
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.lsl import Layout, LslCapture
 from colift.agents.hardware.ports import CaptureLostError
+from colift.base.errors import InputError
 
 pylsl = pytest.importorskip("pylsl")
 

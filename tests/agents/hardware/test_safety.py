@@ -3,9 +3,9 @@
 import math
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.ports import ArmState, HandLimits
 from colift.agents.hardware.safety import hand_limits, limited, motor_fault, next_command
+from colift.base.errors import InputError
 from colift.robots.nao.facts import JOINTS
 from colift.robots.nao.kinematics import ARM_JOINTS
 from hypothesis import given

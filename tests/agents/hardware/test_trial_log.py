@@ -4,10 +4,10 @@ import threading
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.rerun import logged_commands, rerun_trial
 from colift.agents.hardware.trial_log import read_trial, write_trial
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 
 from .conftest import Patient
 

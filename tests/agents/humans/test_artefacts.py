@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import load_recordings
 from colift.agents.humans.artefacts import CHECKS, Fault, fault
+from colift.base.errors import InputError
 
 from .motion import lift, rows, table
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import load_recordings
+from colift.base.errors import InputError
 
 from .motion import lift, rows, table
 

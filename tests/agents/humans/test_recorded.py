@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import profile
 from colift.agents.humans import SUBJECTS, Recorded, Recording
+from colift.base.errors import InputError
 
 S1 = SUBJECTS["S1"]
 

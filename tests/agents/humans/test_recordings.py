@@ -1,9 +1,9 @@
 """Files of recordings: their table, their trials, and files of other programs."""
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import load_recordings
 from colift.agents.humans.foreign_files import foreign_format
+from colift.base.errors import InputError
 
 from .motion import lift, rows, table
 

@@ -2,8 +2,8 @@ import dataclasses
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
+from colift.base.errors import InputError
 
 DRAWN = [Subject.draw(seed) for seed in range(300)]
 

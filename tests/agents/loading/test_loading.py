@@ -2,10 +2,10 @@ import pickle
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.hold import Hold
-from colift.agents.registry import POLICIES, entries
+from colift.base.errors import InputError
+from colift.base.registry import POLICIES, entries
 
 GOOD = """
 class Mine:
@@ -82,7 +82,7 @@ def test_digest_is_of_what_the_source_does(written):
         ("nobody", "^unknown policy 'nobody'$"),
         ("no_such_module:Mine", r"cannot import module 'no_such_module'"),
         ("colift.agents.policies.hold:Held", r"has no class 'Held'; it has Hold"),
-        ("colift.agents.errors:nothing", r"has no class 'nothing'; it has .*InputError"),
+        ("colift.base.errors:nothing", r"has no class 'nothing'; it has .*InputError"),
         ("colift.agents.control.q_learning:state_of", r"is not a class"),
         ("colift.agents.control.q_learning:QLearner", r"has no method reset\(\)"),
         ("no/such/file.py:Mine", r"no such file: no/such/file\.py"),

@@ -2,10 +2,10 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.loading.parameters import make_with, parameters_of, read_values
 from colift.agents.policies.blend import Blend
 from colift.agents.policies.hold import Hold
+from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -7,9 +7,9 @@ pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
 import onnx
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import OPERATORS
 from colift.agents.onnx.policy import OnnxPolicy
+from colift.base.errors import InputError
 
 from .networks import FLOAT, proportional, recurrent
 

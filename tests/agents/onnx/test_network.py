@@ -7,9 +7,9 @@ import pytest
 
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import LARGEST
 from colift.agents.onnx.network import parse_network
+from colift.base.errors import InputError
 from onnx import TensorProto, helper
 
 from .networks import DOUBLE, FLOAT, model, node, proportional, recurrent, value, weights

@@ -10,7 +10,6 @@ import pytest
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.allowed import LARGEST
 from colift.agents.onnx.policy import OnnxPolicy
 from colift.agents.sandbox.host.policy import close_sandboxes
@@ -18,6 +17,7 @@ from colift.agents.submissions.submission import (
     open_submission,
     read_submission,
 )
+from colift.base.errors import InputError
 
 from ...conftest import peak_memory
 from .networks import (

@@ -6,9 +6,9 @@ import pytest
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.network import parse_network
 from colift.agents.onnx.policy import OnnxPolicy
+from colift.base.errors import InputError
 from onnx import helper
 
 from .networks import FLOAT, GAIN, model, node, value, weights

@@ -13,14 +13,14 @@ from colift.agents.control.anticipation import (
     load_anticipation,
     read_anticipation,
 )
-from colift.agents.errors import InputError
 from colift.agents.estimators.perceptron import Perceptron
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.anticipate import (
     Anticipate,
     AnticipateParameters,
     AnticipationController,
 )
+from colift.base.errors import InputError
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from colift.benchmark.suites.catalogue import make_scenario

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.policies.extrapolate import Extrapolate, ExtrapolateParameters
+from colift.base.errors import InputError
 
 
 def commands(heights, steps=2.0):

@@ -4,8 +4,8 @@ import math
 import numpy as np
 import pytest
 from colift.agents.control.predictor import Predictor, PredictorParameters
-from colift.agents.errors import InputError
 from colift.agents.policies.homotopy import Homotopy, HomotopyParameters
+from colift.base.errors import InputError
 
 
 def views(period=0.1, duration=8.0, noise=0.0):

@@ -2,7 +2,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.agents.policies.impedance import (
@@ -13,8 +12,9 @@ from colift.agents.policies.impedance import (
     damping_at,
 )
 from colift.agents.policies.proportional import Proportional
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 from scipy.linalg import expm

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.estimators.minimum_jerk import MinimumJerkStroke
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.minimum_jerk import MinimumJerk, MinimumJerkParameters
 from colift.agents.policies.reactive import Reactive
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 
 LIFT = MinimumJerkStroke(start=0.02, end=0.22, onset=1.04, duration=2.1)

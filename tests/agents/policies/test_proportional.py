@@ -2,14 +2,14 @@ from importlib.resources import files
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.agents.policies.proportional import Proportional, ProportionalParameters
+from colift.base.errors import InputError
 from colift.benchmark.episode import sensing
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 

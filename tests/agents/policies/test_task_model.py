@@ -5,10 +5,10 @@ import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.control.adaptive_impedance import LearnedImpedance, certainty
 from colift.agents.control.learned_task import LearnedTask, load_task, task_json
-from colift.agents.errors import InputError
 from colift.agents.estimators.gaussian_mixture import GaussianMixture
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.task_model import TaskModel, TaskModelController, TaskModelParameters
+from colift.base.errors import InputError
 
 
 def persistent(stiffness=0.0, lead=0.0, offset=0.0, spread=1e-4):

@@ -10,9 +10,9 @@ from inspect import getsourcefile
 import numpy as np
 import pytest
 from colift.agents.agent import Explaining
-from colift.agents.errors import PolicyError
 from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy, kept_sandboxes
+from colift.base.errors import PolicyError
 from colift.benchmark.suites.suite import Suite
 
 from .conftest import HURRIED, PATIENT, SPARING, children, handles, opened_since

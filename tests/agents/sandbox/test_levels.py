@@ -7,12 +7,12 @@ import time
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError, PolicyError
 from colift.agents.sandbox.host import levels, process
 from colift.agents.sandbox.host.connection import Connection
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.sandbox.host.process import command
 from colift.agents.submissions.new import write_template
+from colift.base.errors import EvaluatorFault, InputError, PolicyError
 
 
 @pytest.fixture

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from colift.agents.errors import PolicyError
-from colift.agents.registry import POLICIES, own_entries
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
+from colift.base.errors import PolicyError
+from colift.base.registry import POLICIES, own_entries
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.suite import make_suite
 

@@ -6,9 +6,9 @@ import socket
 import subprocess
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions import folder as folders
 from colift.agents.submissions.folder import FolderLimits, copy_folder, read_folder
+from colift.base.errors import InputError
 
 
 @pytest.fixture

@@ -3,9 +3,9 @@
 from importlib.resources import files
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.manifest import LONGEST, Manifest, read_manifest
 from colift.agents.submissions.packages import PACKAGES
+from colift.base.errors import InputError
 
 GOOD = {
     "name": '"mine"',

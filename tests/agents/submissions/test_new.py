@@ -3,9 +3,9 @@
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import read_submission
+from colift.base.errors import InputError
 
 
 @pytest.mark.parametrize(

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.snapshot import KEPT_DAYS, snapshot_file
 from colift.agents.submissions.submission import open_submission, read_submission
+from colift.base.errors import InputError
 
 OBSERVATION = [0.1, 0.0, 0.0, 0.0, 0.0]
 

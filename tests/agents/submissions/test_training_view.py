@@ -6,11 +6,11 @@ import pytest
 pytest.importorskip("onnx", reason="needs onnx: uv sync --all-extras")
 pytest.importorskip("onnxruntime", reason="needs onnxruntime: uv sync --all-extras")
 
-from colift.agents.errors import InputError
 from colift.agents.onnx.policy import OnnxPolicy
 from colift.agents.sandbox.host.policy import close_sandboxes
 from colift.agents.submissions.submission import open_submission, read_submission
 from colift.agents.submissions.training_view import VIEWS, TrainingView
+from colift.base.errors import InputError
 from colift.benchmark.environment import RobotEnv, training_env
 
 from ..onnx.networks import FLOAT, model, proportional, value, weights, write_network

@@ -1,7 +1,7 @@
 """Players of the admission test: which policies a suite is tested with, and which are trained."""
 
 import pytest
-from colift.benchmark.admission.admission import players, trained
+from colift.benchmark.admission.assessment import players, trained
 
 
 @pytest.mark.parametrize(

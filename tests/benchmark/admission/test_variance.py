@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.admission.variance import variance_shares
 
 

@@ -8,7 +8,8 @@ from colift.benchmark.bounds.ablation import VARIANTS, ablate, moving, narrowed,
 from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.bounds.held_out import held_out_suite
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS, Suite
+from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import CURRICULUM, Lesson, learn_anticipation
 from colift.benchmark.training.data import TrainingData, window_inputs
 

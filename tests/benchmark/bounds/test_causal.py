@@ -5,15 +5,15 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from colift.agents.control.recurrent import shipped_network
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.bounds.bounds import BOUNDS, suite_bounds
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.benchmark.bounds.catalogue import BOUNDS, suite_bounds
 from colift.benchmark.bounds.causal import CAUSAL_BOUND, CausalBound, causal_bound, causal_run
 from colift.benchmark.comparison.playing import play_policies
-from colift.benchmark.episode.level import Level
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks import rehearsal
+from colift.benchmark.tasks.level.task import Level
 
 
 def test_the_bound_is_an_agent_of_its_own_weights():

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import StepTimes
-from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS, LEVEL
 
 CELLS = tuple(
     (behaviour, subject) for behaviour in BEHAVIOURS for subject in "AB" for _ in range(4)

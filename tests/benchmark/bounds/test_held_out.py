@@ -1,8 +1,8 @@
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import Subject
+from colift.base.errors import InputError
 from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 
 
 def test_every_new_person_moves_in_every_way():

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.benchmark.bounds.bounds import BOUNDS
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.benchmark.bounds.catalogue import BOUNDS
 from colift.benchmark.bounds.oracle import foreknow, oracle_run
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite

@@ -1,9 +1,9 @@
 """Runs and bundles to look at."""
 
 import pytest
-from colift.agents.errors import PolicyError
 from colift.agents.policies.copy import Copy
 from colift.agents.spec import InProcess
+from colift.base.errors import PolicyError
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite

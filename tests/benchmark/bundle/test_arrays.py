@@ -7,7 +7,7 @@ import zipfile
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle.arrays import MOST_ARRAYS, dump_arrays, parse_arrays
 from hypothesis import given, settings
 from hypothesis import strategies as st

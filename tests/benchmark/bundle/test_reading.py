@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import read_bundle, read_files, results, write_bundle
 from colift.benchmark.bundle.arrays import dump_arrays, parse_arrays
 from colift.benchmark.bundle.files import other_files

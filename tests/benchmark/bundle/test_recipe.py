@@ -4,9 +4,9 @@ import dataclasses
 import json
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS, Pause, Recorded, Recording
-from colift.agents.registry import SUITES, own_entries
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.bundle import Recipe
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite, recorded_suite

@@ -5,14 +5,14 @@ import json
 from collections.abc import Iterator
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import Metric, metric_table
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import shipped_baselines
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
 from jsonschema import Draft202012Validator
 
 VALIDATOR = Draft202012Validator(results_schema())

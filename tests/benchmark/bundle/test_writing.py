@@ -7,8 +7,8 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.bundle import FILES, check_bundle_folder, read_bundle, results, write_bundle
 from colift.benchmark.bundle.content import real_time
 from colift.benchmark.episode.metric import SCORING

@@ -1,8 +1,8 @@
 """Channels: ranges, names, files."""
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.identity import Code, code_hash
+from colift.base.errors import InputError
+from colift.base.identity import Code, code_hash
 from colift.benchmark.channels import (
     CHANNELS,
     Channel,

@@ -7,10 +7,10 @@ import colift
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError, PolicyError
-from colift.agents.loading.loading import InMemorySpec, PolicySpec
+from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.policies.copy import Copy
 from colift.agents.rules import SCALARS
+from colift.base.errors import InputError, PolicyError
 from colift.benchmark.channels import Channel, Link
 from colift.benchmark.channels.teleoperated import ANSWERED, Teleoperated
 from colift.benchmark.episode.seat import limited_command

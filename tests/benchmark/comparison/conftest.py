@@ -4,12 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from colift.benchmark.comparison.comparison import Comparison, compare
+from colift.benchmark.comparison.compare import Comparison, compare
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import StepTimes
-from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 
 CELLS = tuple(
     (behaviour, subject) for behaviour in BEHAVIOURS for subject in ("S1", "S2") for _ in range(8)

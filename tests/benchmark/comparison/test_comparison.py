@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from colift.benchmark.comparison.captions import parts_caption, picture_caption, unit_warnings
-from colift.benchmark.comparison.comparison import Comparison, compare
+from colift.benchmark.comparison.compare import Comparison, compare
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.paired_results import PolicyResults

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from colift.benchmark.comparison.captions import failures, verdict
-from colift.benchmark.comparison.comparison import Comparison, compare
+from colift.benchmark.comparison.compare import Comparison, compare
 from colift.benchmark.comparison.files import (
     comparison_csv,
     comparison_json,

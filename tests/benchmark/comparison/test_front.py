@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import second_axis
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tasks.intent.table import INTENT_METRICS
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
 
 SPARC = second_axis(LEVEL_METRICS)
 

@@ -3,9 +3,9 @@
 import dataclasses
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results
-from colift.benchmark.comparison.comparison import compare
+from colift.benchmark.comparison.compare import compare
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.paired_results import PairedResults

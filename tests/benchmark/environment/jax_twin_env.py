@@ -4,12 +4,12 @@ import colift  # noqa: F401 - registers the environment
 import gymnasium
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.policies.extrapolate import Extrapolate
+from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import make_drawing
 from colift.benchmark.environment.twin import TwinEnv
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 
 
 def make(**settings):

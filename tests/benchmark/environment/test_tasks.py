@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment import RobotEnv, parallel_env
 from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.tasks.intent.task import Intent

@@ -5,9 +5,9 @@ import copy
 import gymnasium
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.extrapolate import Extrapolate
+from colift.base.errors import InputError
 from colift.benchmark.environment import (
     History,
     HoldingPace,
@@ -19,11 +19,11 @@ from colift.benchmark.environment import (
     training_view,
 )
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.world import since_reset
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import api_test, parallel_api_test, parallel_seed_test

@@ -9,11 +9,11 @@ from colift.agents.humans import Partner
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.benchmark.bundle.table import table_row
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import LEVEL
 
 
 class Scripted(Hold):

@@ -14,18 +14,18 @@ import colift
 import pytest
 from colift import benchmark, robots
 from colift.agents import control, estimators, humans, policies
-from colift.agents.identity import Code, Module
-from colift.agents.identity.statements import Statement
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import HUMANS, POLICIES, TASKS, lookup, own_entries, own_policies
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.identity import Code, Module
+from colift.base.identity.statements import Statement
+from colift.base.registry import HUMANS, POLICIES, TASKS, lookup, own_entries, own_policies
 from colift.benchmark import episode, tasks, world
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.identity import PLAYS_AND_SCORES, SIMULATES, STATED
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
-from colift.benchmark.episode.level import Level
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.provenance import PLAYS
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import Level
 
 LOOSE = (
     *("agents.actions", "agents.agent"),
@@ -50,8 +50,8 @@ SUITE = (*PLAYS_AND_SCORES, Scenario, humans.Subject, humans.Recording, *LIVE, *
 
 PLAY = """
 import dataclasses, json
-from colift.agents.registry import SUITES, own_entries
-from colift.agents.loading.loading import PolicySpec
+from colift.base.registry import SUITES, own_entries
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 suites = [make_suite("quick-v1")]

@@ -6,17 +6,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-from colift.agents.errors import EvaluatorFault
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import EvaluatorFault
 from colift.benchmark.episode import kept_world
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
-from colift.benchmark.episode.level import Level
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import Level
 
 COPY = PolicySpec(text="copy")
 

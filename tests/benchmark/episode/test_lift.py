@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation, RobotObservation
-from colift.agents.errors import InputError
 from colift.agents.humans import PARTNER_SUBJECT
 from colift.agents.senses import MOCAP_NOISE
+from colift.base.errors import InputError
 from colift.benchmark.environment import parallel_env
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario

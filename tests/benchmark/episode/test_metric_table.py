@@ -3,11 +3,11 @@
 import contextlib
 
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metric import on_boards
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import LEVEL
 
 METRICS = LEVEL.metrics
 

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.replay import ReplayError, replay
 from colift.benchmark.suites.catalogue import make_scenario
 from hypothesis import given, settings

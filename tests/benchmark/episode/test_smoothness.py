@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.episode.smoothness import dimensionless_jerk, ldlj, sparc
 from numpy.typing import NDArray
 

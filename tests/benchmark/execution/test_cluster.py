@@ -8,13 +8,13 @@ import sys
 from contextlib import contextmanager
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.extras import how_to_install
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import open_submission
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.extras import how_to_install
 from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution import cluster as cluster_module
 from colift.benchmark.execution import connecting
@@ -50,7 +50,7 @@ class Dying(Copy):
 WITHOUT_DASK = """
 import sys
 sys.modules["distributed"] = None
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.execution.connecting import dask_pool
 try:
     with dask_pool("tcp://127.0.0.1:8786"):

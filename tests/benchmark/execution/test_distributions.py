@@ -9,11 +9,11 @@ from base64 import urlsafe_b64encode
 from importlib.metadata import version
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.execution import distributions
 from colift.benchmark.execution.distributions import ENGINES, engine, library_versions
 from colift.benchmark.execution.provenance import fingerprint
-from colift.leaderboard.evaluation.evaluation import versions
+from colift.leaderboard.evaluation.evaluate import versions
 
 SHOW = (
     "import json; from colift.benchmark.execution import distributions as found; "

@@ -1,8 +1,8 @@
 """Whether a policy can play a task, before a lift is played."""
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.suites.catalogue import make_scenario
 

@@ -7,8 +7,8 @@ from contextlib import nullcontext
 from dataclasses import dataclass, fields
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution.batches import Batch, Faults, batches, run_batches
 from colift.benchmark.execution.pool import process_pool
@@ -20,7 +20,7 @@ SUITE = make_suite("quick-v1").with_seeds(0, 2)
 FAILING = """
 import os
 from pathlib import Path
-from colift.agents.errors import EvaluatorFault
+from colift.base.errors import EvaluatorFault
 from colift.agents.policies.copy import Copy
 
 here = Path(__file__).parent

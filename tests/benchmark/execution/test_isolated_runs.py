@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.submissions.submission import read_submission
 from colift.benchmark.execution.pool import local_pool

@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.execution.journal import journal_path, open_journal
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
@@ -17,8 +17,8 @@ RUN = {"policy": "copy", "suite digest": "abc", "isolation": "none", "colift": "
 RUNNING = """
 import os, resource, signal, sys
 from pathlib import Path
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.base.errors import InputError
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.journal import open_journal
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite

@@ -6,11 +6,11 @@ import math
 import msgpack
 import numpy as np
 import pytest
-from colift.agents.errors import PolicyError
 from colift.agents.policies.blend import Blend
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import PolicyError
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.records import episode_of, record_of
 from colift.benchmark.suites.catalogue import make_scenario
 

@@ -44,7 +44,7 @@ class Policy:
 OURS = """
 import json
 from colift.agents.humans import Subject
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import fingerprint, results
 from colift.benchmark.results.baselines import PARTNER_SPEC
 from colift.benchmark.execution.runner import run_suite
@@ -66,7 +66,7 @@ import json, sys
 from dataclasses import replace
 from pathlib import Path
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 suite = make_suite("quick-v1").with_seeds(0, 1)

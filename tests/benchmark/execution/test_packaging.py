@@ -9,12 +9,12 @@ from pathlib import Path
 
 import msgpack
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.host.levels import strongest
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.submission import open_submission
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.execution.packaging import packaged
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite

@@ -5,7 +5,7 @@ import os
 import threading
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.execution.cluster import LARGE, call, parcel
 from colift.benchmark.execution.provenance import origin
 

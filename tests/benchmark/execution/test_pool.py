@@ -10,7 +10,7 @@ from concurrent.futures import CancelledError
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError, PolicyError
+from colift.base.errors import EvaluatorFault, InputError, PolicyError
 from colift.benchmark.execution.pool import JOBS, default_jobs, local_pool, process_pool
 from colift.benchmark.execution.processors import usable_processors
 

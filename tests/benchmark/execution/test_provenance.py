@@ -1,7 +1,7 @@
 """What results come from: named, compared, and found to differ."""
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.execution.provenance import (
     check_same_origin,
     fingerprint,

@@ -7,15 +7,15 @@ import sys
 from concurrent.futures import ProcessPoolExecutor
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.execution.runner import InterruptedRunError, run_suite
 from colift.benchmark.suites.suite import make_suite
 
 QUICK = "quick-v1"
 
 FRESH = """
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 run = run_suite(PolicySpec(text="copy"), make_suite("quick-v1").with_seeds(1, 2))

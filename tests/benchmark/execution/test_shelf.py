@@ -8,10 +8,10 @@ import tracemalloc
 from concurrent.futures import Executor, Future
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.bundle import results, write_bundle
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution import shelf
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite

@@ -4,9 +4,9 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from colift.agents.errors import PolicyError
 from colift.agents.policies.copy import Copy
 from colift.agents.spec import InProcess
+from colift.base.errors import PolicyError
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.export.observing import ObservedLift, spaces

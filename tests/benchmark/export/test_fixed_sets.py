@@ -4,12 +4,13 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.registry import SUITES, own_entries
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.environment.parallel import parallel_env
 from colift.benchmark.export.fixed_sets import MOST_LIFTS, play_set, set_digest, set_plan
 from colift.benchmark.export.rules import RULES
-from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import FIRST_SEED, LAST_SEED
 
 MOTION = "trial,t_s,z_m\n" + "".join(

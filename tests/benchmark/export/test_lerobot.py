@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.export import lerobot_writer
 from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.lerobot_writer import frame_rate

@@ -1,7 +1,7 @@
 """A missing library is reported with the extra that has it, before any work."""
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.export import library
 from colift.benchmark.export.exporting import check_format
 

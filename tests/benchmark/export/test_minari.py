@@ -7,7 +7,7 @@ from contextlib import closing
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.fixed_sets import play_set, set_plan

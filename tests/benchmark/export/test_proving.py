@@ -5,7 +5,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.environment.parallel import ParallelLift
 from colift.benchmark.export.proving import proved_lifts
 

@@ -1,7 +1,7 @@
 """Figures made for real, in a clone of the test's own."""
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.figures.making import command_output, remake, statuses
 from colift.benchmark.figures.registry import FOLDER, REGISTRY, read_figures
 

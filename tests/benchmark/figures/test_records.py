@@ -1,9 +1,9 @@
 import dataclasses
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import own_policies
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.base.registry import own_policies
 from colift.benchmark.figures.origins import origin_of
 from colift.benchmark.figures.records import (
     FigureRecord,

@@ -1,5 +1,5 @@
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.figures.registry import REGISTRY, RecordedFigure, clone_folder, read_figures
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.hardware.faults import KINDS, Fault, Schedule, parse_fault
 from colift.benchmark.hardware.markers import REST_HEIGHT, Markers
 

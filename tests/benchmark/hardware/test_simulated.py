@@ -4,7 +4,6 @@ from contextlib import ExitStack, closing
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.decisions import Inline
 from colift.agents.hardware.loop import LoopSettings
 from colift.agents.hardware.nao.naoqi import NaoqiArm
@@ -12,7 +11,8 @@ from colift.agents.hardware.operator import StopButton
 from colift.agents.hardware.session import Session
 from colift.agents.hardware.stops import Stop, StopTrialError
 from colift.agents.hardware.trial_end import AfterLift
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.hardware.faults import Fault

@@ -4,19 +4,19 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.hardware.ports import HandLimits, Sample
 from colift.agents.hardware.stops import Stop
 from colift.agents.hardware.trial_log import LoggedTrial, Step, TrialLog
+from colift.base.errors import InputError
 from colift.benchmark.bundle import results
 from colift.benchmark.bundle.table import dump_table
-from colift.benchmark.episode.level import Level
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.hardware.estimates import estimate_setup
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.hardware.timing import timing_report
 from colift.benchmark.hardware.trial import episode, hardware_run, hardware_suite
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
+from colift.benchmark.tasks.level.task import Level
 
 T = 0.1
 

@@ -8,8 +8,8 @@ from colift.agents.calibration import CALIBRATION
 from colift.agents.estimators.motion_filter import MotionFilterParameters
 from colift.agents.humans import SUBJECTS
 from colift.agents.humans.partner import PartnerParameters
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import SUITES, own_entries
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.paper.calibration import SEEDS, TABLE_1, Fit, calibration_json
 from colift.benchmark.suites.suite import make_suite

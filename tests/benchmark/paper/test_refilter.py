@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from colift.agents.policies.blend import Blend
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.paper.refilter import confidence_trajectory, refilter
 from colift.benchmark.paper.topics.timing import ahead_errors, retuned
 

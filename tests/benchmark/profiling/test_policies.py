@@ -4,9 +4,9 @@ import time
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import InProcess
+from colift.base.errors import InputError
 from colift.benchmark.profiling.policies import LIMIT_MS, StepTime, default_scenarios, step_time
 
 

@@ -2,11 +2,11 @@ import math
 
 import numpy as np
 import pytest
-from colift.benchmark.episode.episode import Episode
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
 
 
 def short_episode(frames: int, *, failure: str | None = None) -> Episode:

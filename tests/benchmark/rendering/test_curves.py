@@ -1,7 +1,7 @@
 import dataclasses
 
 import numpy as np
-from colift.benchmark.episode.episode import Episode
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.caption import title_strip
 from colift.benchmark.rendering.curves import Curves

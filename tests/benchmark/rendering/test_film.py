@@ -3,8 +3,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.benchmark.episode.episode import Episode
+from colift.base.errors import InputError
+from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.rendering.film import (
     film_episode,

@@ -2,8 +2,8 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.registry import ROBOTS, own_entries
+from colift.base.errors import InputError
+from colift.base.registry import ROBOTS, own_entries
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.episode.recorder import Recorder
 from colift.benchmark.rendering.bodies import shown_body

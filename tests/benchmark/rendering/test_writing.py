@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.rendering.scene import Picture
 from colift.benchmark.rendering.writing import check_film, write
 from PIL import Image, ImageSequence

@@ -5,9 +5,9 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.bounds.bounds import suite_bounds
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.registry import SUITES, own_entries
+from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.playing import play_bounds
 from colift.benchmark.episode.metric import on_boards

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.metric import LEADING, on_boards
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.scores import ScoreTable

@@ -8,13 +8,13 @@ from colift.agents.agent import RobotObservation
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.agents.policies.random import Random
-from colift.benchmark.episode.episode import run_episode
-from colift.benchmark.episode.level import LEVEL
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metric import reached
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import LEVEL
 
 BEHAVIOURS = ["smooth", "pause", "jerky", "changing_goal"]
 SEEDS = range(6)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from colift.agents.humans import SUBJECTS
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.robots.iiwa import EFFORT, ROW, STROKE, Iiwa, postures
 from colift.benchmark.suites.catalogue import make_scenario

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics import interquartile_mean, mean_with_missing
 
 

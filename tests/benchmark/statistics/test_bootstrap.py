@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics import (
     difference_of_means,
     interquartile_mean,

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics import holm_correction
 
 

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics import paired_permutation_p, permutation_ps_against
 from colift.benchmark.statistics.permutation import far_apart, sequential_permutation_ps
 

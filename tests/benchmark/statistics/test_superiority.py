@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.statistics import paired_difference, probability_better, share_better
 
 RNG = np.random.default_rng(0)

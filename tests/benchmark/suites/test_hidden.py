@@ -5,11 +5,11 @@ import subprocess
 import sys
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import SUBJECTS
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import SUITES, own_entries
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import InProcess
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.batches import shuffled_batches
 from colift.benchmark.execution.runner import run_suite

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.humans import Smooth
-from colift.agents.registry import SUITES, own_entries
-from colift.benchmark.episode.level import Level
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.episode.metric import metric_table
 from colift.benchmark.suites import rules
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite, recorded_suite
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.world import table
 
 

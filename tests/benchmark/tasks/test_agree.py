@@ -8,13 +8,14 @@ import sys
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.humans.agree import Hurdle
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.observations import AgreeObservation, HapticObservation
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.agents.tasks.agree import Hurdle
+from colift.agents.tasks.agree.observation import AgreeObservation
+from colift.agents.tasks.touch.observation import HapticObservation
+from colift.base.errors import InputError
 from colift.benchmark.admission import published
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import human_human_run, partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -156,7 +157,7 @@ def test_a_lift_is_proved_by_its_actions():
 
 
 FRESH = """
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("ahead", "S2", task="agree")

@@ -6,11 +6,12 @@ import sys
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.observations import BallObservation, HapticObservation
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.episode import run_episode
+from colift.agents.tasks.ball.observation import BallObservation
+from colift.agents.tasks.touch.observation import HapticObservation
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -147,7 +148,7 @@ def test_two_people_steer_and_the_lift_is_proved_by_its_actions():
 
 
 FRESH = """
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("ball_pause", "S2", task="ball")

@@ -7,11 +7,11 @@ import sys
 import numpy as np
 import pytest
 from colift.agents.agent import RobotObservation
-from colift.agents.humans.intent import MANNERS
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.observations import HapticObservation
-from colift.benchmark.episode.episode import run_episode
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.agents.tasks.intent import MANNERS
+from colift.agents.tasks.touch.observation import HapticObservation
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.replay import replay
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -93,8 +93,8 @@ def test_two_people_find_the_pose_and_the_lift_is_proved_by_its_actions():
 
 
 FRESH = """
-from colift.agents.humans.intent import MANNERS
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.tasks.intent import MANNERS
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("switching", "S2", task="intent")

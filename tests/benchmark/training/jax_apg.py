@@ -9,8 +9,8 @@ import pytest
 from colift.agents.agent import RobotObservation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork, act, memory_at_rest
-from colift.agents.errors import InputError
 from colift.agents.senses import MOCAP_NOISE
+from colift.base.errors import InputError
 from colift.benchmark.training import apg, apg_course, level_lesson
 from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course

@@ -3,11 +3,11 @@
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.offline.policy import INPUTS, Network
 from colift.agents.submissions.submission import read_submission
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.training import cloning, iql, validation
 from colift.benchmark.training.course import open_course

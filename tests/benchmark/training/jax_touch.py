@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork
-from colift.agents.registry import TASKS, own_entries
-from colift.agents.touch.touch_controller import read_touch
-from colift.agents.touch.touch_law import (
+from colift.agents.tasks.touch.touch_controller import read_touch
+from colift.agents.tasks.touch.touch_law import (
     TouchNetwork,
     felt_action,
     inputs_of,
     touch_at_rest,
 )
+from colift.base.registry import TASKS, own_entries
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training import apg, apg_course, validation

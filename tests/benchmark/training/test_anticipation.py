@@ -2,7 +2,7 @@ import sys
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bounds import held_out
 from colift.benchmark.training.anticipation import fit, learn_anticipation, window_for
 from colift.benchmark.training.data import LEADS, Timing, TrainingData

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
 

@@ -4,13 +4,13 @@ from functools import partial
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.network.policy import Policy
 from colift.agents.submissions.submission import read_submission
-from colift.benchmark.episode.episode import run_episode
+from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.pool import process_pool
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training import cem, validation
 from colift.benchmark.training.cem import CemSettings, start, train_cem
 from colift.benchmark.training.course import open_course

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.submission import read_submission
+from colift.base.errors import InputError
 from colift.benchmark.training import course as courses
 from colift.benchmark.training.course import Point, open_course, write_summary, write_whole
 from colift.benchmark.training.result import write_policy

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from colift.agents.control.anticipation import MODES, FeatureHistory, FeatureWindow
-from colift.agents.errors import InputError
-from colift.benchmark.suites.suite import BEHAVIOURS
+from colift.base.errors import InputError
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training import data as module
 from colift.benchmark.training.anticipation import collect_training_data
 from colift.benchmark.training.data import (

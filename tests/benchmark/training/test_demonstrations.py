@@ -5,11 +5,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.registry import SUITES, own_entries
 from colift.agents.senses import MOCAP_NOISE
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.paper.calibration import SEEDS
-from colift.benchmark.suites.suite import BEHAVIOURS, make_suite
+from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.demonstrations import (
     COLUMNS,
     FIRST_SEED,

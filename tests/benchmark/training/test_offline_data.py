@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.offline.policy import Window
+from colift.base.errors import InputError
 from colift.benchmark.export.exporting import CardWords, export
 from colift.benchmark.export.fixed_sets import play_set, set_digest, set_plan
 from colift.benchmark.export.observing import spaces

@@ -6,7 +6,7 @@ It has a process of its own: JAX has threads, and forks do not mix.
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.training.ppo_settings import CoPlaySettings, SelfPlaySettings
 
 

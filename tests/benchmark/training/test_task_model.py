@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from colift.agents.control.adaptive_impedance import Gains, LearnedImpedance
 from colift.agents.control.learned_task import load_task, task_json
-from colift.agents.errors import InputError
-from colift.agents.registry import SUITES, own_entries
+from colift.base.errors import InputError
+from colift.base.registry import SUITES, own_entries
 from colift.benchmark.paper.calibration import SEEDS
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.training.demonstrations import (

@@ -7,9 +7,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.humans.agree import negotiating
-from colift.agents.observations import AgreeObservation as Seen
-from colift.agents.policies.agree_game import AgreeGame
+from colift.agents.tasks.agree import negotiating
+from colift.agents.tasks.agree.agree_game import AgreeGame
+from colift.agents.tasks.agree.observation import AgreeObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.agree.task import Agree
 from colift.benchmark.twin.task_twin import TaskTwin

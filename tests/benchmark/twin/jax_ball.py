@@ -8,9 +8,9 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.humans.ball import steering as steering_rule
-from colift.agents.observations import BallObservation as Seen
-from colift.agents.policies.ball_game import BallGame
+from colift.agents.tasks.ball import steering as steering_rule
+from colift.agents.tasks.ball.ball_game import BallGame
+from colift.agents.tasks.ball.observation import BallObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.ball.task import BALL
 from colift.benchmark.twin.task_twin import TaskTwin

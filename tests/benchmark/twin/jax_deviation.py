@@ -3,8 +3,8 @@
 import jax.numpy as jnp
 import pytest
 from colift.agents.policies.extrapolate import Extrapolate
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.training.pool import straight_line
 from colift.benchmark.twin import arm, body, deviation, pair, plant

@@ -6,7 +6,7 @@ from itertools import cycle
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.observations import HapticObservation as Seen
+from colift.agents.tasks.touch.observation import HapticObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.twin import haptic_plant
 from colift.benchmark.twin.task_twin import TaskTwin

@@ -6,10 +6,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.policies.copy import Copy
-from colift.benchmark.episode.level import Level
+from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.twin.agents import play_agents
 from colift.benchmark.twin.lifts import draw_lifts
 from colift.benchmark.twin.rollout import Sensing, rollout

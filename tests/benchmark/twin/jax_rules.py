@@ -6,10 +6,10 @@ from dataclasses import replace
 import jax
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.errors import InputError
-from colift.agents.humans.ball import Steers
 from colift.agents.policies.copy import Copy
-from colift.agents.registry import TASKS, own_entries
+from colift.agents.tasks.ball import Steers
+from colift.base.errors import InputError
+from colift.base.registry import TASKS, own_entries
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.twin.agreement import CLOSE, largest_difference

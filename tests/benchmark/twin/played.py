@@ -5,8 +5,8 @@ import contextlib
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.benchmark.episode.episode import run_episode
 from colift.benchmark.episode.lift import Lift
+from colift.benchmark.episode.loop import run_episode
 
 
 class Played:

@@ -1,5 +1,5 @@
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.validity.sources import source_of, sources_of
 
 

@@ -3,10 +3,10 @@
 import shutil
 
 import pytest
-from colift.agents.errors import PolicyError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.policies.copy import Copy
 from colift.agents.spec import InProcess
+from colift.base.errors import PolicyError
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 

@@ -5,7 +5,7 @@ import itertools
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import InProcess
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import hidden_suite

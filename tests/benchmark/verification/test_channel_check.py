@@ -8,7 +8,7 @@ import shutil
 import jsonschema
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
 from colift.benchmark.channels import CHANNELS, Channel, Link

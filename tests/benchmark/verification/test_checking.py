@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.checking import check_part, presubmission_checks

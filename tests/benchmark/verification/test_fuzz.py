@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import FILES, parse, read_bundle, read_files, results, write_bundle
 from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.execution.runner import run_suite

@@ -1,7 +1,7 @@
 """What is no bundle is refused with the file."""
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.verification import verify
 
 from .forging import edit_json, mend, refused

@@ -5,7 +5,7 @@ import math
 import shutil
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle import read_bundle, write_bundle
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.verification import verify

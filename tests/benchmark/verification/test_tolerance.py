@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.execution.runner import run_suite

@@ -17,12 +17,12 @@ import zlib
 
 import pytest
 import sqlalchemy as sa
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.results.scores import ScoreTable
-from colift.leaderboard.backup.backup import back_up
 from colift.leaderboard.backup.restoring import restore
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.backup.writing import back_up
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.database.schema import metadata
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue

@@ -3,10 +3,10 @@
 import dataclasses
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.registry import own_policies
-from colift.leaderboard.board.board import BUILTIN
-from colift.leaderboard.board.tokens import Tokens
+from colift.base.errors import InputError
+from colift.base.registry import own_policies
+from colift.leaderboard.core.board import BUILTIN
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.evaluation.entrant import LEARNED, builtin_entrant
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker

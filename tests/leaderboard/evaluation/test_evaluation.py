@@ -7,16 +7,16 @@ import time
 
 import numpy as np
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import InProcess
+from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.verification.audit import RULE
-from colift.leaderboard.evaluation.evaluation import (
+from colift.leaderboard.evaluation.evaluate import (
     episode_count,
     evaluate_entrant,
     play_human_human,
@@ -179,7 +179,7 @@ def test_what_fails_the_check_is_played_no_further(season, human_human, tmp_path
 def test_what_fails_in_every_public_lift_gets_no_row(season, human_human, tmp_path, monkeypatch):
     """It passes the check: as if that were on other lifts."""
     monkeypatch.setattr(
-        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+        "colift.leaderboard.evaluation.evaluate.presubmission_checks", lambda *_: ()
     )
     policy = written(tmp_path, "raise ValueError('my fault')")
     told = r"it fails in every public lift: 2 lifts: ValueError: my fault \(first: smooth/S1 seed 0"
@@ -229,7 +229,7 @@ def test_a_policy_that_acts_by_chance_in_public_is_refused_with_the_place(
     season, human_human, tmp_path, monkeypatch
 ):
     monkeypatch.setattr(
-        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+        "colift.leaderboard.evaluation.evaluate.presubmission_checks", lambda *_: ()
     )
     policy = written(tmp_path, "return [os.urandom(1)[0] * 1e-6]")
     found = evaluate_entrant(make_entrant(policy), season, human_human, tmp_path / "bundle")

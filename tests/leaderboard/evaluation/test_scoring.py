@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.evaluation.scoring import MOST, failure_lines

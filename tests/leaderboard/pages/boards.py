@@ -4,15 +4,15 @@ import dataclasses
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import play_baselines, shipped_baselines
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.seasons import ImportedSeason
-from colift.leaderboard.evaluation.evaluation import play_human_human
+from colift.leaderboard.core.seasons import ImportedSeason
+from colift.leaderboard.evaluation.evaluate import play_human_human
 from colift.leaderboard.evaluation.scoring import gap, hidden_scores, public_scores
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season, SeasonInfo

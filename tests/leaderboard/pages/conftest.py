@@ -9,14 +9,14 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.seasons import ImportedSeason
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.seasons import ImportedSeason
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Browser, Page, ViewportSize
 
-from ..serving import serving
+from ...serving import serving
 from .boards import BEGAN, digest, practice, renamed
 
 

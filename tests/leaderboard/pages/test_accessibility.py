@@ -4,10 +4,10 @@ import re
 
 import httpx
 import pytest
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import Queue, WorkerQueue
 
-from ..browser import violations
+from ...browser import violations
 from ..signed import write_signed
 from .boards import digest
 

@@ -8,12 +8,12 @@ import httpx
 import numpy as np
 import pytest
 from colift.benchmark.bundle import read_bundle
-from colift.benchmark.episode.level import Level
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results import baselines
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.verification import verify
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.views import bounds
 

@@ -7,7 +7,7 @@ import json
 from colift.benchmark.bundle.files import RESULTS
 from colift.benchmark.results.baselines import shipped_bounds
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from playwright.sync_api import expect
 
 from .conftest import running

@@ -5,7 +5,7 @@ import io
 from dataclasses import replace
 
 from colift.benchmark.statistics import paired_difference
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.replays.chosen import replays_of
 from colift.leaderboard.storage.store import Store
 from colift.leaderboard.views.compare import compare_page

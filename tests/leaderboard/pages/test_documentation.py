@@ -2,7 +2,7 @@
 
 import httpx
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Page, expect

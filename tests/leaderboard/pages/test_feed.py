@@ -8,7 +8,7 @@ from urllib.parse import urljoin, urlsplit
 
 import httpx
 from colift.agents.submissions.submission import read_submission
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 
 from .boards import digest
 

@@ -3,7 +3,7 @@
 from datetime import timedelta
 
 import pytest
-from colift.leaderboard.evaluation.evaluation import episode_count
+from colift.leaderboard.evaluation.evaluate import episode_count
 from colift.leaderboard.pages.formats import duration
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page

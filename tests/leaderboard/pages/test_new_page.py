@@ -19,7 +19,7 @@ LOOK = """
 import asyncio, json, sys
 from pathlib import Path
 import httpx
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.service.app import create_app
 

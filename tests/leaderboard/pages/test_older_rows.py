@@ -8,7 +8,7 @@ import json
 import httpx
 import pytest
 from colift.benchmark.bundle.files import RESULTS
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
 
 from ...cli.conftest import colift

@@ -7,7 +7,7 @@ import re
 
 import pytest
 from colift.benchmark.bundle.files import EPISODES
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from playwright.sync_api import expect
 
 from .boards import digest

@@ -10,7 +10,7 @@ import httpx
 import pytest
 import sqlalchemy as sa
 from colift.benchmark.bundle.files import RESULTS
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page

@@ -6,9 +6,9 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.bundle.reading import read_bundle
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
 from playwright.sync_api import expect
 

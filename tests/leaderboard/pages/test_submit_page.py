@@ -5,8 +5,8 @@ import threading
 from pathlib import Path
 
 import pytest
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
 from colift.leaderboard.storage.archive import pack_archive

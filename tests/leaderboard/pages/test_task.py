@@ -10,7 +10,7 @@ import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.cli.check import check as check_command
 from colift.cli.options import chosen_suite
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.views.task import task_view
 

@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 
 from .conftest import running
 

@@ -7,8 +7,8 @@ import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
 from colift.benchmark.statistics import Estimate, MeanWithMissing
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.standings import HumanHumanScores
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import HumanHumanScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import Links

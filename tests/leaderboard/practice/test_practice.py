@@ -6,15 +6,15 @@ import json
 from datetime import UTC, datetime
 
 import pytest
-from colift.agents.errors import InputError
-from colift.agents.loading.loading import PolicySpec
-from colift.agents.registry import own_policies
+from colift.agents.loading.policy_spec import PolicySpec
+from colift.base.errors import InputError
+from colift.base.registry import own_policies
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.scores import ScoreTable
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant
-from colift.leaderboard.evaluation.evaluation import play_human_human
-from colift.leaderboard.practice.practice import SUITES, is_current, play_policy, practice_season
+from colift.leaderboard.evaluation.evaluate import play_human_human
+from colift.leaderboard.practice.season import SUITES, is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason, practice_import
 from colift.leaderboard.practice.shipped_scores import shipped_scores
 from colift.leaderboard.replays.chosen import replays_of

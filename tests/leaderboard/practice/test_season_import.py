@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 
 import pytest
 from colift.benchmark.suites.suite import make_suite
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.practice.season_import import PlayedSeason, open_with_practice
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry
 

@@ -3,7 +3,7 @@
 import dataclasses
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.leaderboard.queue import (
     FAULTS,
     LEASE,

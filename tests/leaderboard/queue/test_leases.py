@@ -7,7 +7,7 @@ import time
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import LEASE, LostError, Queue, WorkerQueue
 from colift.leaderboard.queue.jobs import is_gone, this_worker
 

@@ -10,7 +10,7 @@ from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.checking import LIFTS, SEED
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.database.queries import read_error_numbers, read_errors
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
@@ -153,7 +153,7 @@ def test_no_trace_or_score_of_a_hidden_episode_is_in_what_is_published(published
     errors = hidden_errors(board, entry.submission)
     assert len(errors) == 2
     assert [each for each in errors if repr(each).encode() in everything] == []
-    from colift.agents.loading.loading import PolicySpec
+    from colift.agents.loading.policy_spec import PolicySpec
 
     episode = run_suite(PolicySpec(text="copy"), board.season.hidden).episodes[0]
     for series in (episode.trace.target, episode.trace.human_end[:50]):

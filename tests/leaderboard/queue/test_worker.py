@@ -9,8 +9,8 @@ from dataclasses import replace
 from datetime import timedelta
 
 import pytest
-from colift.agents.errors import EvaluatorFault, InputError
 from colift.agents.sandbox.host import levels
+from colift.base.errors import EvaluatorFault, InputError
 from colift.leaderboard.evaluation.progress import BudgetError, Callbacks
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from colift.leaderboard.queue import worker as module
@@ -93,7 +93,7 @@ def test_what_acts_by_chance_is_refused_with_the_reason(
 ):
     """It passes the check, as if that were on other lifts, but not the audit."""
     monkeypatch.setattr(
-        "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+        "colift.leaderboard.evaluation.evaluate.presubmission_checks", lambda *_: ()
     )
     job = queue.enqueue(board.keep(write_submission(REFUSED)), "Ada")
     done = Worker(WorkerQueue(queue.board)).once()
@@ -132,7 +132,7 @@ def test_the_log_of_a_policy_that_fails_ends_with_its_output(
     """Its lines are not taken for the log's own, and it controls no terminal."""
     if not checked:
         monkeypatch.setattr(
-            "colift.leaderboard.evaluation.evaluation.presubmission_checks", lambda *_: ()
+            "colift.leaderboard.evaluation.evaluate.presubmission_checks", lambda *_: ()
         )
     queue.enqueue(board.keep(write_submission(PRINTS)), "Ada")
     done = Worker(WorkerQueue(queue.board)).once()

@@ -13,7 +13,7 @@ from urllib.parse import parse_qs, urlsplit
 
 import pytest
 from colift.benchmark.verification import verify
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import NO_QUOTA, Queue
 from colift.leaderboard.records.job import HELD
 from colift.leaderboard.views.job import STAGES

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import Bundle, read_bundle, results, write_bundle
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite

@@ -1,7 +1,7 @@
 import shutil
 
 import pytest
-from colift.agents.errors import InputError
+from colift.base.errors import InputError
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.replays.chosen import FILE, chosen_replays, replays_of
 

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.leaderboard.replays.chosen import chosen_replays

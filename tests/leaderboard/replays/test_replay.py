@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.loading.loading import PolicySpec
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import play

@@ -10,9 +10,9 @@ import tempfile
 from datetime import UTC, datetime
 from pathlib import Path
 
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.database.database import FILE
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.database.connection import FILE
 from colift.leaderboard.database.migration import HEAD
 from colift.leaderboard.queue import Queue, WorkerQueue
 

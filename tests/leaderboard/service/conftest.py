@@ -10,14 +10,14 @@ from pathlib import Path
 import httpx
 import pytest
 from colift.agents.submissions.new import write_template
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate
 from colift.leaderboard.storage.archive import pack_archive
 
-from ..serving import serving as served
+from ...serving import serving as served
 from .uploaded import left_over
 
 UNLIMITED = Rates(

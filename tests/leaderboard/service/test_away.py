@@ -9,9 +9,9 @@ from urllib.parse import parse_qs, urlsplit
 import httpx
 import pytest
 import sqlalchemy as sa
-from colift.leaderboard.board.board import Board
-from colift.leaderboard.board.tokens import Tokens
-from colift.leaderboard.database.database import Database
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.database.connection import Database
 
 from ..postgresql import SETTINGS, as_its_user, binaries, server
 

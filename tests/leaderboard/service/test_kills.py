@@ -14,7 +14,7 @@ from pathlib import Path
 
 import httpx
 import pytest
-from colift.leaderboard.board.board import Board
+from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.job import HELD
 from colift.leaderboard.views.job import STAGES

@@ -5,7 +5,7 @@ import time
 
 import httpx
 import pytest
-from colift.leaderboard.board import ranks
+from colift.leaderboard.core import ranks
 
 from ..rows import add, digest
 

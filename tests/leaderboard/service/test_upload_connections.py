@@ -6,7 +6,7 @@ import time
 
 import httpx
 import pytest
-from colift.leaderboard.board.tokens import Tokens
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.service import uploads
 from colift.leaderboard.service.uploads import BODY

@@ -7,8 +7,8 @@ import zipfile
 import httpx
 import pytest
 import sqlalchemy as sa
-from colift.agents.errors import InputError
-from colift.leaderboard.board.tokens import Tokens
+from colift.base.errors import InputError
+from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.database.schema import jobs
 from colift.leaderboard.queue import Queue, WorkerQueue
 from colift.leaderboard.storage.staging import PREFIX

@@ -11,9 +11,9 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from colift.agents.errors import InputError
 from colift.agents.submissions.folder import LIMITS, FolderLimits, read_folder
 from colift.agents.submissions.new import write_template
+from colift.base.errors import InputError
 from colift.leaderboard.storage.archive import DIRECTORY, pack_archive, unpack_archive
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st

@@ -5,7 +5,7 @@ import re
 import xml.etree.ElementTree as ET
 
 import pytest
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.front import FrontPoint
 from colift.benchmark.comparison.scatter.png import png, scatter_figure
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from colift.benchmark.comparison.comparison import Comparison
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.front import FrontPoint, exact
 from colift.benchmark.comparison.scatter.scene import (
     NARROW,
@@ -14,10 +14,10 @@ from colift.benchmark.comparison.scatter.scene import (
     ScatterScene,
     make_scene,
 )
-from colift.benchmark.episode.level_metrics import LEVEL_METRICS
 from colift.benchmark.episode.metric import LEADING, Metric, second_axis
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tasks.intent.table import INTENT_METRICS
+from colift.benchmark.tasks.level.table import LEVEL_METRICS
 
 Box = tuple[float, float, float, float]
 

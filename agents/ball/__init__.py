@@ -1,1 +1,0 @@
-"""The ball on the table as a robot sees, feels and steers it."""

@@ -1,0 +1,1 @@
+"""The tasks that need coordination: their people, senses and policies."""

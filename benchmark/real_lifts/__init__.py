@@ -1,0 +1,1 @@
+"""Lifts of real people on disk, and as suites."""

@@ -1,0 +1,172 @@
+"""Rows of a table: their sections and ranks, and the table as a data frame."""
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from typing import TYPE_CHECKING, Final, Literal
+
+from colift.base.errors import InputError
+from colift.base.extras import how_to_install
+from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.statistics import Estimate
+from colift.leaderboard.evaluation.scoring import PLACES
+from colift.leaderboard.records.metrics import board_metrics, known_means
+from colift.leaderboard.records.row import BoardRow
+from colift.leaderboard.records.season import OUT, Event
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+Section = Literal["ranking", "not real-time", "unverified", "out"]
+"""The ranking; a second one of policies that are not real-time; and, without ranks, the unverified
+rows and those that were withdrawn or removed."""
+
+
+@dataclass(frozen=True)
+class RankedRow:
+    """A row with its rank and its events."""
+
+    group: int
+    """Rank group in its section, 1 the best. 0 is none: the section has no ranks, the lifts are
+    too few to distinguish any two policies, or the rank is ``pending``."""
+    row: BoardRow
+    """The row of the last rescore, or of the entry if there was none."""
+    at: datetime
+    """Time at which it was put on the board."""
+    events: tuple[Event, ...]
+    """Its later events, oldest first."""
+    submitter: str
+    pending: bool = False
+    """Whether its rank is still being computed."""
+
+    @property
+    def section(self) -> Section:
+        """Its section of the table."""
+        return section(self.row, self.events)
+
+    @property
+    def ranked(self) -> bool:
+        """Whether it is in the ranking, rather than in that of policies that are not real-time."""
+        return self.section == "ranking"
+
+
+@dataclass(frozen=True, kw_only=True)
+class HumanHumanScores:
+    """The human-human baseline on a season's hidden episodes."""
+
+    rmse_mm: Estimate
+    means: Mapping[str, float | None]
+    """Means of the other metrics of a board, by name."""
+
+
+def section(row: BoardRow, events: tuple[Event, ...]) -> Section:
+    """Return the section of a row after its events."""
+    kinds = [event.kind for event in events if event.kind in (*OUT, "reinstatement")]
+    if kinds and kinds[-1] in OUT:
+        return "out"
+    if not row.verified:
+        return "unverified"
+    return "ranking" if row.real_time else "not real-time"
+
+
+ORDER: Final[tuple[Section, ...]] = ("ranking", "not real-time", "unverified", "out")
+"""The sections of a table, in their order."""
+
+RANKED: Final[tuple[Section, ...]] = ORDER[:2]
+"""The sections that have ranks."""
+
+
+def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
+    """Return the row of the last rescore, or the row itself."""
+    scored = [event.content for event in events if event.kind == "rescore"]
+    return BoardRow.read(scored[-1]["row"]) if scored and scored[-1] is not None else row
+
+
+@functools.lru_cache(maxsize=16)
+def human_human_scores(human_human: ScoreTable, suite: str) -> HumanHumanScores:
+    """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
+    return HumanHumanScores(
+        rmse_mm=human_human.error.rounded(PLACES),
+        means={
+            name: None if mean is None else round(mean, PLACES)
+            for name, mean in known_means(human_human.means, suite).items()
+        },
+    )
+
+
+def frame(table: Sequence[RankedRow], suite: str) -> "DataFrame":
+    """Return the rows of a suite's table that have ranks; see :meth:`.Board.ranking`."""
+    try:
+        import pandas as pd
+    except ImportError:
+        raise InputError(
+            f"a ranking as data frame needs pandas: {how_to_install('board')}"
+        ) from None
+    rows = [_flat(each) for each in table if each.section in RANKED]
+    return pd.DataFrame(rows, columns=columns(suite))
+
+
+def columns(suite: str) -> tuple[str, ...]:
+    """Return the columns of :meth:`.Board.ranking`: RMSE and ratio are of the hidden episodes."""
+    metrics = (metric.name for metric in board_metrics(suite))
+    return (*HIDDEN_COLUMNS, *metrics, *OTHER_COLUMNS)
+
+
+HIDDEN_COLUMNS: Final = (
+    "section",
+    "group",
+    "name",
+    "authors",
+    "rmse_mm",
+    "rmse_mm_low",
+    "rmse_mm_high",
+    "vs_human",
+    "vs_human_low",
+    "vs_human_high",
+    "better_than_human",
+    "failed",
+    "public_rmse_mm",
+    "public_rmse_mm_low",
+    "public_rmse_mm_high",
+    "gap_mm",
+)
+
+OTHER_COLUMNS: Final = (
+    "step_ms_p50",
+    "step_ms_p99",
+    "verified",
+    "licence",
+    "trained_on",
+    "link",
+    "at",
+    "submission",
+)
+
+
+def _flat(each: RankedRow) -> tuple[object, ...]:
+    row, hidden, public = each.row, each.row.hidden, each.row.public
+    return (
+        each.section,
+        each.group,
+        row.name,
+        ", ".join(row.authors),
+        hidden.rmse_mm.mean,
+        *hidden.rmse_mm.ci95,
+        hidden.vs_human.mean,
+        *hidden.vs_human.ci95,
+        hidden.better_than_human,
+        hidden.failed,
+        public.rmse_mm.mean,
+        *public.rmse_mm.ci95,
+        row.gap_mm.mean,
+        *(public.metrics[metric.name].mean for metric in board_metrics(row.suite)),
+        public.step_ms_p50,
+        public.step_ms_p99,
+        row.verified,
+        row.licence,
+        row.trained_on,
+        row.link,
+        each.at,
+        row.submission,
+    )
