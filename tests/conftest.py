@@ -14,13 +14,14 @@ import subprocess
 import sys
 import threading
 import time
-from contextlib import ExitStack, contextmanager
+import uuid
+from contextlib import ExitStack, closing, contextmanager
 from importlib.metadata import version
 from pathlib import Path
 
 import colift
 import pytest
-from colift.agents.hardware.nao.session import quiet
+from colift.agents.hardware.nao.session import NaoqiSession, quiet
 from colift.agents.onnx.libraries import NO_TELEMETRY
 from colift.agents.sandbox.host import levels
 from colift.benchmark.execution.pool import JOBS
@@ -306,9 +307,19 @@ class EmulatedLaboratory:
             assert time.monotonic() < end, f"the emulator does not say {start!r}"
             time.sleep(0.02)
 
+    def mark(self):
+        """Return how many lines it has printed once all that was done before is among them."""
+        with closing(NaoqiSession(self.url)) as session:
+            mark = uuid.uuid4().hex
+            session.call("ALMemory", "insertData", f"Test/{mark}", 0, within=60.0)
+        self.await_line(f"memory Test/{mark}")
+        return len(self.lines)
+
     def happened_since(self, before):
-        """Return the lines since so many, but for what is said of a lack of time."""
-        return [line for line in self.lines[before:] if not line.startswith("behind the clock")]
+        """Return the lines from a mark on, but for marks and what is said of a lack of time."""
+        self.mark()
+        aside = ("behind the clock", "memory Test/")
+        return [line for line in self.lines[before:] if not line.startswith(aside)]
 
     def close(self):
         """End it as an operator does."""

@@ -54,7 +54,7 @@ def lifted(laboratory, tmp_path_factory):
 
 
 def test_check_finds_robot_and_stream_and_nothing_moves(colift, laboratory):
-    before = len(laboratory.lines)
+    before = laboratory.mark()
     done = colift("nao", "check", *laboratory.place)
     assert done.returncode == 0, done.stdout
     assert "MISSING" not in done.stdout
@@ -92,7 +92,7 @@ def faulty(laboratory, *faults):
 
 
 def test_check_and_run_refuse_a_robot_that_is_not_well(colift, laboratory):
-    before = len(laboratory.lines)
+    before = laboratory.mark()
     with faulty(laboratory, "hot@0:99:81", "battery@0", "breathing@0", "idle-posture@0"):
         checked = colift("nao", "check", *laboratory.place)
         refused = colift("nao", "run", "blend", *laboratory.place, "--yes")
@@ -149,7 +149,7 @@ def test_two_motion_captures_of_a_name_are_refused_and_one_can_be_chosen(colift,
 def test_a_dry_run_sends_the_robot_no_motion(colift, emulate, tmp_path):
     """In a laboratory as it starts: earlier lifts may leave a table that is off the hands."""
     laboratory = emulate()
-    before = len(laboratory.lines)
+    before = laboratory.mark()
     options = ("--dry-run", "--trials", 1, "--duration", 3, "--record", tmp_path)
     done = colift("nao", "run", "copy", *laboratory.place, *options)
     assert done.returncode == 0, done.stderr

@@ -159,7 +159,7 @@ def test_a_controller_that_was_stopped_sends_nothing_but_the_stop(run):
     begun = run("--yes", stderr=subprocess.PIPE).lifting()
     begun.process.send_signal(signal.SIGSTOP)
     time.sleep(2.0)
-    stopped = len(begun.laboratory.lines)
+    stopped = begun.laboratory.mark()
     begun.process.send_signal(signal.SIGCONT)
     at = time.monotonic()
     assert released(begun.laboratory, SLACK)

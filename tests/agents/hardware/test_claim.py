@@ -60,9 +60,9 @@ def test_a_claim_without_a_heartbeat_is_taken_over_and_its_owner_stops(connect, 
             arm.state()
         with pytest.raises(RobotTakenError, match="commanded by another"):
             arm.command(0.1, 0.1)
-        before = len(laboratory.lines)
+        before = laboratory.mark()
         arm.stop()
-    assert "killAll" not in laboratory.lines[before:]
+    assert "killAll" not in laboratory.happened_since(before)
     # A claim that is not one's own is not given up.
     assert holder(old).name == "another"
 

@@ -29,7 +29,7 @@ def test_arms_whose_client_is_gone_are_released(laboratory):
         claim = RobotClaim(session)
         claim._write(claim._own)
         beats = iter(range(8))
-        before = len(laboratory.lines)
+        before = laboratory.mark()
 
         def over():
             # It lives for a while, and is watched meanwhile.
@@ -54,7 +54,7 @@ def test_a_claim_that_was_dead_before_is_left_alone(laboratory):
     ):
         dead = RobotClaim(session)
         dead._write(dead._own)
-        before = len(laboratory.lines)
+        before = laboratory.mark()
         watch(NaoqiArm(own), Until(lambda: False, seconds=STALE + 3))
         assert laboratory.happened_since(before) == []
         assert holder(session).token == dead.token
