@@ -5,10 +5,10 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import Action, Observation
-from colift.agents.estimators.belief import BeliefParameters, GoalBelief
 from colift.agents.policies.anticipate import Anticipate
 from colift.agents.tasks.agree.agree_leader import check_positive
 from colift.agents.tasks.agree.approach import Approach, HurdleWatch
+from colift.agents.tasks.agree.belief import BeliefParameters, GoalBelief
 from colift.agents.tasks.agree.observation import AgreeObservation
 from colift.agents.tasks.agree.touched_end import TouchedEnd
 

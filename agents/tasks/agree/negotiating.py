@@ -4,7 +4,8 @@ import math
 from typing import Any, Final, Generic, NamedTuple
 
 from colift.agents.agent import FRAME
-from colift.agents.estimators.belief import (
+from colift.agents.rules import ArrayFunctions, N
+from colift.agents.tasks.agree.belief import (
     BeliefParameters,
     Motion,
     believe,
@@ -12,7 +13,6 @@ from colift.agents.estimators.belief import (
     own_goal,
     prior,
 )
-from colift.agents.rules import ArrayFunctions, N
 from colift.agents.tasks.agree.manner import AgreeingManner
 from colift.agents.tasks.agree.precedence import Secret, Sight, Turn, mine, served
 

@@ -29,7 +29,7 @@ from colift.benchmark.tasks.level.task import Level
 
 LOOSE = (
     *("agents.actions", "agents.agent"),
-    *("agents.ball.facts", "agents.estimators.belief", "agents.touch.pose_filter"),
+    *("agents.ball.facts", "agents.tasks.agree.belief", "agents.touch.pose_filter"),
 )
 APPEARANCE = ("colift.robots.nao.shapes",)
 """What a robot looks like: no lift depends on it, so that no number there changes a digest."""

@@ -3,14 +3,6 @@
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME, HumanObservation
-from colift.agents.estimators.belief import (
-    BeliefParameters,
-    GoalBelief,
-    Motion,
-    believe,
-    own_goal,
-    prior,
-)
 from colift.agents.humans import SUBJECTS, Subject
 from colift.agents.rules import SCALARS
 from colift.agents.tasks.agree import (
@@ -28,6 +20,14 @@ from colift.agents.tasks.agree import (
     Secret,
     agreeing_manner,
     with_secret,
+)
+from colift.agents.tasks.agree.belief import (
+    BeliefParameters,
+    GoalBelief,
+    Motion,
+    believe,
+    own_goal,
+    prior,
 )
 from colift.agents.tasks.agree.hurdles import APART, AWAY, LENGTH
 from colift.agents.tasks.agree.person import Sight as Seeing
