@@ -11,7 +11,7 @@ import typer
 from colift.agents.spec import AUTO
 from colift.base.errors import InputError
 from colift.base.extras import how_to_install
-from colift.benchmark.robots.robot import ROBOT, make_robot
+from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
 from colift.cli.completion import policies
 from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
 from colift.cli.options import PolicyIsolation, RobotName, check_folder
@@ -73,12 +73,12 @@ def play(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"
         ) from error
     check_folder("--out", out)
-    make_robot(robot or ROBOT)
+    make_robot(robot or DEFAULT_ROBOT)
     named, lines = partners(policy, isolation)
     config = PlayConfig(
         folder=out.absolute(),
         policies=named,
-        robot=robot or ROBOT,
+        robot=robot or DEFAULT_ROBOT,
         descriptions=lines,
         rooms=rooms,
         hosts=frozenset() if root or not _is_loopback(host) else HOSTS,

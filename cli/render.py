@@ -14,7 +14,7 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.progress import progress_bar
-from colift.benchmark.robots.robot import ROBOT, make_robot
+from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tables.failures import printed_lines
 from colift.benchmark.tasks.level.task import LEVEL
@@ -72,7 +72,7 @@ def render_episode(
     _check(out)
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
-    holder = robot or ROBOT
+    holder = robot or DEFAULT_ROBOT
     make_robot(holder)
     played = make_scenario(scenario or behaviour, subject, holder, control_period, latency, task)
     check_plays(policy, task)

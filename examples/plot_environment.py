@@ -12,7 +12,7 @@ from colift.agents.agent import RobotObservation
 from colift.benchmark.rendering.style import HUMAN, ROBOT, style_axes
 from matplotlib import pyplot as plt
 
-env = colift.parallel_env(scenario="changing_goal", subject="S2")
+env = colift.parallel_env(behaviour="changing_goal", subject="S2")
 observations, _ = env.reset(seed=8)
 human = env.scripted_human()
 rewards, times, heights = [], [], []

@@ -10,7 +10,7 @@ import colift
 import numpy as np
 from matplotlib import pyplot as plt
 
-env = colift.parallel_env(scenario="smooth", subject="S5", render_mode="rgb_array")
+env = colift.parallel_env(behaviour="smooth", subject="S5", render_mode="rgb_array")
 observations, _ = env.reset(seed=2)
 human = env.scripted_human()
 images = []

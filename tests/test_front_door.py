@@ -78,7 +78,7 @@ def test_gymnasium_makes_it(program):
 # PettingZoo would rather have "human_0" than "human", and agents that all see and do the same.
 @pytest.mark.filterwarnings("ignore::UserWarning:pettingzoo")
 def test_the_pettingzoo_module_has_what_theirs_have():
-    made = colift_v0.parallel_env(scenario="pause")
+    made = colift_v0.parallel_env(behaviour="pause")
     assert made.metadata["name"] == "colift_v0"
     parallel_api_test(made, num_cycles=20)
     for turns in (colift_v0.env(), colift_v0.raw_env()):

@@ -6,17 +6,16 @@ from typing import Final
 from colift.agents.humans import Subject
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
-from colift.benchmark.suites.catalogue import make_scenario, make_task
-from colift.benchmark.tasks.level.task import LEVEL
+from colift.benchmark.suites.catalogue import TASK, make_scenario, make_task
 
 TRAINING_SEEDS: Final = range(100_000, 200_000)
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""
 
 ANY: Final = "any"
-"""The scenario of a behaviour drawn from those of the task."""
+"""A behaviour drawn from those of the task."""
 
 DRAW: Final = "draw"
-"""The subject of a person drawn from the population of the five subjects."""
+"""A person drawn from the population of the five subjects."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,18 +40,18 @@ def _training_seed(seed: int, role: str) -> int:
 
 
 def make_drawing(
-    scenario: str,
+    behaviour: str,
     subject: str,
     partner: str,
     control_period: float,
     latency: float,
-    task: str = LEVEL.name,
+    task: str = TASK,
 ) -> Drawing | None:
     """Return the source of lifts of an environment's settings; None if nothing is to be drawn.
 
     Parameters
     ----------
-    scenario, subject
+    behaviour, subject
         As for :func:`.parallel_env`; :data:`ANY` or :data:`DRAW` is drawn.
     partner, control_period, latency, task
         As for :func:`.make_scenario`.
@@ -62,13 +61,13 @@ def make_drawing(
     InputError
         As :func:`.make_scenario`.
     """
-    if scenario != ANY and subject != DRAW:
+    if behaviour != ANY and subject != DRAW:
         return None
     person = f"draw-{TRAINING_SEEDS[0]}" if subject == DRAW else subject
     return Drawing(
         scenarios=tuple(
-            make_scenario(behaviour, person, partner, control_period, latency, task)
-            for behaviour in (make_task(task).behaviours if scenario == ANY else (scenario,))
+            make_scenario(each, person, partner, control_period, latency, task)
+            for each in (make_task(task).behaviours if behaviour == ANY else (behaviour,))
         ),
         new_people=subject == DRAW,
     )

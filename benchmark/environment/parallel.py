@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from colift.agents.agent import Action, Agent, Observation
 from colift.benchmark.environment.drawing import Drawing, make_drawing
-from colift.benchmark.environment.rewards import LEVEL, SCORE, check_reward, score_rewards
+from colift.benchmark.environment.rewards import SCORE, TASK_REWARD, check_reward, score_rewards
 from colift.benchmark.environment.settings import (
     HUMAN,
     ROBOT,
@@ -21,8 +21,8 @@ from colift.benchmark.environment.state import state_space, true_state
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.rendering.scene import Scene, check_render_mode
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.tasks.level.task import LEVEL as LEVEL_TASK
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
+from colift.benchmark.suites.catalogue import TASK, make_scenario
 from colift.benchmark.tasks.worlds import lift_after
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
@@ -99,7 +99,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         scenario: Scenario,
         render_mode: str | None = None,
         *,
-        reward: str = LEVEL,
+        reward: str = TASK_REWARD,
         drawing: Drawing | None = None,
     ) -> None:
         check_render_mode(render_mode)
@@ -282,27 +282,27 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
 
 
 def parallel_env(
-    scenario: str = "smooth",
+    behaviour: str = "smooth",
     subject: str = "S1",
-    partner: str = "nao",
+    partner: str = DEFAULT_ROBOT,
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
     render_mode: str | None = None,
-    reward: str = LEVEL,
-    task: str = LEVEL_TASK.name,
+    reward: str = TASK_REWARD,
+    task: str = TASK,
 ) -> ParallelLift:
-    """Return the parallel environment of a scenario.
+    """Return the parallel environment of a behaviour, a person and a task.
 
     Parameters
     ----------
-    scenario
+    behaviour
         Name of the human's behaviour, such as ``"smooth"`` or ``"pause"``; ``"any"`` draws one of
         the task's at each reset.
     subject
         Name of the human: ``"S1"`` to ``"S5"``, or ``"draw-N"``; ``"draw"`` draws a new person at
         each reset.
     partner
-        Who holds the robot's end: ``"nao"`` or ``"human"``.
+        Who holds the robot's end: a robot, such as ``"nao"``, or ``"human"``.
     control_period
         Time between two decisions [s], a multiple of 10 ms.
     latency
@@ -310,8 +310,8 @@ def parallel_env(
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     reward
-        ``"level"``, the height difference at the end of a step [m], or ``"score"``, the mean square
-        over its frames [cm2]. For tasks other than ``level`` the first is the task's own reward.
+        ``"task"``, the task's own reward, for ``level`` the height difference at the end of a step
+        [m]; or ``"score"``, the mean square over its frames [cm2].
     task
         Name of the task, such as ``"level"`` or ``"intent"``; it determines the observations, their
         bounds, the rewards, the end and the behaviours that are drawn.
@@ -321,11 +321,11 @@ def parallel_env(
     InputError
         If a name is unknown (the message lists the known ones) or a time is out of range.
     """
-    check_names(scenario=scenario, subject=subject, partner=partner, task=task)
+    check_names(behaviour=behaviour, subject=subject, partner=partner, task=task)
     check_times(control_period=control_period, latency=latency)
-    drawing = make_drawing(scenario, subject, partner, control_period, latency, task)
+    drawing = make_drawing(behaviour, subject, partner, control_period, latency, task)
     if drawing is None:
-        made = make_scenario(scenario, subject, partner, control_period, latency, task)
+        made = make_scenario(behaviour, subject, partner, control_period, latency, task)
     else:
         made = drawing.scenarios[0]
     return ParallelLift(made, render_mode, reward=reward, drawing=drawing)

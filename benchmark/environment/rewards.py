@@ -10,13 +10,13 @@ from colift.benchmark.episode.task import Task
 from colift.benchmark.tasks.level.task import Level
 from numpy.typing import NDArray
 
-LEVEL: Final = "level"
-"""Reward by the height difference at the end of a step [m]; see :meth:`.Task.rewards`."""
+TASK_REWARD: Final = "task"
+"""The task's own reward, see :meth:`.Task.rewards`."""
 
 SCORE: Final = "score"
 """Reward by the square of the error in all frames of a step [cm2]; see :func:`score_rewards`."""
 
-REWARDS: Final = (LEVEL, SCORE)
+REWARDS: Final = (TASK_REWARD, SCORE)
 
 UNIT: Final = 1e-4
 """Square error that costs 1 [m2]: a step with the ends 10 mm apart, about the error of two

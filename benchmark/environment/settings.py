@@ -13,7 +13,7 @@ HUMAN, ROBOT = "human", "robot"
 """The two agents."""
 
 SETTINGS: Final = (
-    "scenario",
+    "behaviour",
     "subject",
     "partner",
     "control_period",

@@ -1,6 +1,6 @@
 """The Gymnasium view: the robot is the agent, the scripted human is part of the world."""
 
-from typing import Any, Final
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -8,10 +8,9 @@ from colift.agents.agent import Action, Agent, Observation
 from colift.base.errors import InputError
 from colift.benchmark.environment.parallel import parallel_env
 from colift.benchmark.environment.settings import HUMAN, ROBOT, SETTINGS, check_options
+from colift.benchmark.episode.seat import HUMANS
 from gymnasium.spaces import Space
 from numpy.typing import NDArray
-
-_KNOWN: Final = ", ".join(name for name in SETTINGS if name != "partner")
 
 
 class RobotEnv(gymnasium.Env[Observation, Action]):
@@ -24,7 +23,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        Those of :func:`.parallel_env` except ``partner``, which is a NAO here.
+        Those of :func:`.parallel_env`; ``partner`` is a robot here.
 
     Raises
     ------
@@ -38,14 +37,15 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
     }
 
     def __init__(self, render_mode: str | None = None, **settings: Any) -> None:
-        if settings.get("partner", "nao") != "nao":
-            raise InputError(
-                f"partner must be 'nao' here, got {settings['partner']!r}: colift.parallel_env has "
-                "lifts of two humans"
-            )
         unknown = settings.keys() - set(SETTINGS)
         if unknown:
-            raise InputError(f"no such setting: {', '.join(sorted(unknown))}; known: {_KNOWN}")
+            known = ", ".join(SETTINGS)
+            raise InputError(f"no such setting: {', '.join(sorted(unknown))}; known: {known}")
+        if settings.get("partner") in HUMANS:
+            raise InputError(
+                f"partner must be a robot here, got {settings['partner']!r}: colift.parallel_env "
+                "has lifts of two humans"
+            )
         self._env = parallel_env(render_mode=render_mode, **settings)
         self.render_mode = render_mode
         self.observation_space: Space[Any] = self._env.observation_space(ROBOT)

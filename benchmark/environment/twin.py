@@ -12,6 +12,7 @@ from colift.benchmark.environment.drawing import ANY, DRAW, make_drawing
 from colift.benchmark.environment.rewards import REWARDS, SCORE, UNIT
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.twin import playing as lifting
 from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
@@ -42,10 +43,10 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
     ----------
     num_envs
         Number of lifts at once.
-    scenario, subject, control_period, latency
+    behaviour, subject, control_period, latency
         As for :func:`.parallel_env`; by default behaviours and people are drawn.
     reward
-        ``"level"`` or ``"score"``.
+        ``"task"`` or ``"score"``.
     pool
         Number of lifts from which to draw.
 
@@ -63,16 +64,16 @@ class TwinEnv(VectorEnv[Array, Array, Array]):
         self,
         num_envs: int = 1,
         *,
-        scenario: str = ANY,
+        behaviour: str = ANY,
         subject: str = DRAW,
         control_period: float = CONTROL_PERIOD,
         latency: float = LATENCY,
         reward: str = SCORE,
         pool: int = POOL,
     ) -> None:
-        drawing = make_drawing(scenario, subject, "nao", control_period, latency)
+        drawing = make_drawing(behaviour, subject, DEFAULT_ROBOT, control_period, latency)
         if drawing is None:
-            raise InputError("the twin draws its lifts: scenario 'any', subject 'draw', or both")
+            raise InputError("the twin draws its lifts: behaviour 'any', subject 'draw', or both")
         if reward not in REWARDS:
             raise InputError(f"reward must be {' or '.join(map(repr, REWARDS))}, got {reward!r}")
         if num_envs < 1 or pool < 1:

@@ -161,7 +161,7 @@ def training_view(
 
 
 def training_env(
-    scenario: str = ANY,
+    behaviour: str = ANY,
     subject: str = DRAW,
     *,
     reward: str = SCORE,
@@ -173,7 +173,7 @@ def training_env(
 
     Parameters
     ----------
-    scenario, subject, reward
+    behaviour, subject, reward
         As for :func:`.parallel_env`, with other defaults: a new person and any behaviour at each
         reset, and the reward of the score.
     steps, pace
@@ -186,7 +186,7 @@ def training_env(
     InputError
         As :class:`.RobotEnv`.
     """
-    made = RobotEnv(scenario=scenario, subject=subject, reward=reward, **settings)
+    made = RobotEnv(behaviour=behaviour, subject=subject, reward=reward, **settings)
     return training_view(made, steps=steps, pace=pace)
 
 

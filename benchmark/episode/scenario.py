@@ -8,6 +8,7 @@ from colift.agents.humans import Behaviour, Subject
 from colift.base.errors import InputError
 from colift.benchmark.episode.seat import Seat, make_seat
 from colift.benchmark.episode.task import Task
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 
 CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""
@@ -38,7 +39,7 @@ class Scenario:
     """Name of the recording, empty for a drawn plan."""
     subject: Subject
     """The human."""
-    partner: str = "nao"
+    partner: str = DEFAULT_ROBOT
     """Holder of the robot's end: a robot, or a person of :data:`.HUMANS`."""
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""

@@ -13,6 +13,7 @@ from typing import Any, Final
 import gymnasium
 import numpy as np
 from colift.benchmark.environment.settings import HUMAN, ROBOT
+from colift.benchmark.episode.seat import HUMANS
 from colift.benchmark.export.library import import_minari
 from colift.benchmark.export.lifts import AgentView, ExportedLift, Spaces
 from colift.benchmark.export.provenance import Provenance
@@ -122,12 +123,13 @@ def _metadata(lift: ExportedLift) -> dict[str, Any]:
 
 def _environment(provenance: Provenance) -> Any:
     """Return the specification of the environment of a robot's view; None if there is none."""
-    if provenance.partner != "nao":
+    if provenance.partner in HUMANS:
         return None
     spec = copy.deepcopy(gymnasium.spec("colift/Lift-v0"))
     spec.kwargs = {
         "control_period": provenance.control_period,
         "latency": provenance.latency,
         "task": provenance.task,
+        "partner": provenance.partner,
     }
     return spec

@@ -9,7 +9,7 @@ from colift.base.plugins import make_registered, object_fault
 from colift.base.registry import ROBOTS, entries
 from colift.benchmark.world import FarEnd
 
-ROBOT: Final = "nao"
+DEFAULT_ROBOT: Final = "nao"
 """The default robot, that of the paper."""
 
 Place = tuple[float, float, float]

@@ -18,6 +18,7 @@ from colift.base.registry import HUMANS, TASKS, called, entries
 from colift.benchmark.episode.conformance import behaviour_fault, task_fault
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.task import Task
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 
 TASK: Final = "level"
 """The default task, that of the paper."""
@@ -76,7 +77,7 @@ def _recording(source: str) -> Recording:
 def make_scenario(
     behaviour: str,
     subject: str = "S1",
-    partner: str = "nao",
+    partner: str = DEFAULT_ROBOT,
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
     task: str = TASK,

@@ -13,7 +13,7 @@ from typing import Any, Final
 import numpy as np
 from colift.benchmark.rendering import mannequin
 from colift.benchmark.rendering.scene import FLOOR, PEDESTAL
-from colift.benchmark.robots.robot import ROBOT, Robot, make_robot, robot_names
+from colift.benchmark.robots.robot import DEFAULT_ROBOT, Robot, make_robot, robot_names
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.table import FAR_GRIP, TABLE_LENGTH
 from colift.robots.description import rotations
@@ -94,7 +94,9 @@ def geometry() -> dict[str, Any]:
         "table": TABLE_LENGTH,
         "grip": [GRIP_X, REST_Z],
         "nao": {"body": _nao(), "arm": _rows(_nao_arm, STROKE)},
-        "robots": {name: _chain(make_robot(name)) for name in robot_names() if name != ROBOT},
+        "robots": {
+            name: _chain(make_robot(name)) for name in robot_names() if name != DEFAULT_ROBOT
+        },
         "person": {"body": _person(), "arm": _rows(_person_arm, REACH)},
     }
 

@@ -56,7 +56,7 @@ from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.results.goals import lift_goal_errors
-from colift.benchmark.robots.robot import ROBOT
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from numpy.typing import ArrayLike
 
 
@@ -184,7 +184,7 @@ def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
 
 def _holder(partner: str) -> dict[str, str]:
     """Return the body at the robot's end unless it is a NAO: a person, or words in its place."""
-    if partner == ROBOT:
+    if partner == DEFAULT_ROBOT:
         return {}
     body = shown_body(partner)
     if body is None:

@@ -9,7 +9,7 @@ from colift.agents.spec import AgentSpec
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import LATENCY, LONGEST_LATENCY
 from colift.benchmark.results.baselines import PARTNER_SPEC
-from colift.benchmark.robots.robot import ROBOT
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.live.rooms.scenarios import MIXTURES
 
 SIMULATED: Final = "simulated person"
@@ -43,7 +43,9 @@ class LivePartner:
         return 1 if self.spec is not None else 2
 
 
-def live_partner(name: str, policies: Mapping[str, AgentSpec], robot: str = ROBOT) -> LivePartner:
+def live_partner(
+    name: str, policies: Mapping[str, AgentSpec], robot: str = DEFAULT_ROBOT
+) -> LivePartner:
     """Return a partner by the name that pages use; policies move a robot.
 
     Raises
@@ -75,7 +77,7 @@ class HostChoice:
     """Age of the motion-capture sample when a robot decides [s]."""
 
     @classmethod
-    def first(cls, policies: Mapping[str, AgentSpec], robot: str = ROBOT) -> "HostChoice":
+    def first(cls, policies: Mapping[str, AgentSpec], robot: str = DEFAULT_ROBOT) -> "HostChoice":
         """Return the choice of a new room: the first policy."""
         return cls(partner=live_partner(next(iter(policies)), policies, robot))
 
@@ -84,7 +86,7 @@ class HostChoice:
         cls,
         content: Mapping[str, Any],
         policies: Mapping[str, AgentSpec],
-        robot: str = ROBOT,
+        robot: str = DEFAULT_ROBOT,
     ) -> "HostChoice":
         """Return the choice of a page's message.
 

@@ -21,7 +21,7 @@ from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.real_lifts.session_folder import SessionFolder
 from colift.benchmark.results.goals import lift_goal_errors
-from colift.benchmark.robots.robot import ROBOT
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.live.rooms.choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostChoice
 from colift.live.rooms.grip import Grip
 from colift.live.rooms.lifting import Lifting
@@ -46,7 +46,7 @@ class RoomConfig:
     """The session's folder."""
     policies: Mapping[str, AgentSpec]
     """Partners by the names that pages use, in order; the first is chosen first."""
-    robot: str = ROBOT
+    robot: str = DEFAULT_ROBOT
     """The robot that policies move."""
     cue_seed: int = 0
     """Seed of the session's cues."""

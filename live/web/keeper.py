@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from colift.agents.spec import AgentSpec
 from colift.benchmark.real_lifts.session_folder import SessionFolder
-from colift.benchmark.robots.robot import ROBOT
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.live.rooms.process import RoomProcess, start_room
 from colift.live.rooms.room import RoomConfig
 from colift.live.web.group import Group
@@ -41,7 +41,7 @@ class PlayConfig:
     """Folder of the sessions, each of which is a folder."""
     policies: Mapping[str, AgentSpec]
     """Partners by the names that pages use, in order; the first is the default."""
-    robot: str = ROBOT
+    robot: str = DEFAULT_ROBOT
     """The robot that policies move."""
     descriptions: Mapping[str, str] = field(default_factory=dict)
     """A line about each of them."""

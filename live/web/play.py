@@ -5,7 +5,7 @@ import gc
 import json
 from collections.abc import Awaitable, Callable
 
-from colift.benchmark.robots.robot import ROBOT
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.leaderboard.replays.geometry import geometry
 from colift.leaderboard.service.security import RateLimit
 from colift.live.web import limits
@@ -41,7 +41,7 @@ class Play:
 
     async def start(self) -> None:
         """Begin to assign rooms."""
-        robot = {"robot": self.config.robot} if self.config.robot != ROBOT else {}
+        robot = {"robot": self.config.robot} if self.config.robot != DEFAULT_ROBOT else {}
         self.geometry = await asyncio.to_thread(
             lambda: json.dumps({**geometry(), **robot}).encode()
         )

@@ -81,7 +81,7 @@ def _twin(**settings: Any) -> VectorEnv[Any, Any, Any]:
 
 
 def make(
-    scenario: str = "smooth",
+    behaviour: str = "smooth",
     subject: str = "S1",
     *,
     render_mode: str | None = None,
@@ -91,7 +91,7 @@ def make(
 
     Parameters
     ----------
-    scenario
+    behaviour
         Name of the human's behaviour; see :func:`colift.list_humans`. ``"any"`` draws one at each
         reset.
     subject
@@ -100,7 +100,7 @@ def make(
     render_mode
         ``None``, ``"rgb_array"`` or ``"human"``.
     settings
-        ``control_period`` and ``latency`` [s], ``reward`` (``"level"`` or ``"score"``), ``task``
+        ``control_period`` and ``latency`` [s], ``reward`` (``"task"`` or ``"score"``), ``task``
         (``"level"`` or another one of ``colift list``), and the arguments of ``gymnasium.make``
         itself.
 
@@ -112,5 +112,5 @@ def make(
     import gymnasium
 
     return gymnasium.make(
-        ID, scenario=scenario, subject=subject, render_mode=render_mode, **settings
+        ID, behaviour=behaviour, subject=subject, render_mode=render_mode, **settings
     )

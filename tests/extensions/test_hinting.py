@@ -23,7 +23,7 @@ def test_it_plays_scores_and_verifies(install, colift):
 
 def test_people_and_behaviours_are_drawn_for_it(install):
     install(hinting.__file__, hinting.ENTRY_POINTS)
-    env = library.parallel_env(scenario="any", subject="draw", task="hint")
+    env = library.parallel_env(behaviour="any", subject="draw", task="hint")
     try:
         names = {env.reset(seed=seed)[1]["human"]["scenario"] for seed in range(6)}
         assert len(names) == 6

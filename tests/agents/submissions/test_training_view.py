@@ -74,7 +74,7 @@ def test_it_lifts_as_it_did_in_training_bit_for_bit(tmp_path, view, pace, steps)
     assert max(actions) > 1 or min(actions) < -1
     with open_submission(folder).trusted().agent() as policy:
         policy.reset(0)
-        plain = RobotEnv(scenario="pause", subject="S2", reward="score")
+        plain = RobotEnv(behaviour="pause", subject="S2", reward="score")
         assert lifted(plain, policy.act) == wanted
 
 

@@ -33,15 +33,15 @@ def scenario(request):
 @pytest.mark.parametrize("partner", PARTNERS)
 class TestPettingZoo:
     def test_parallel_api(self, scenario, partner):
-        made = parallel_env(scenario=scenario, partner=partner)
+        made = parallel_env(behaviour=scenario, partner=partner)
         parallel_api_test(made, num_cycles=120)
         made.close()
 
     def test_parallel_seed(self, scenario, partner):
-        parallel_seed_test(lambda: parallel_env(scenario=scenario, partner=partner), num_cycles=40)
+        parallel_seed_test(lambda: parallel_env(behaviour=scenario, partner=partner), num_cycles=40)
 
     def test_aec_api(self, scenario, partner):
-        made = env(scenario=scenario, partner=partner)
+        made = env(behaviour=scenario, partner=partner)
         api_test(made, num_cycles=120)
         made.close()
 
@@ -60,13 +60,13 @@ def test_an_unknown_render_mode_is_refused():
 
 @pytest.mark.parametrize("subject", ["S1", "S3", "draw-5"])
 def test_gymnasium_checks(scenario, subject):
-    made = RobotEnv(scenario=scenario, subject=subject)
+    made = RobotEnv(behaviour=scenario, subject=subject)
     check_env(made, skip_render_check=True)
     made.close()
 
 
 def test_gymnasium_makes_it_by_name():
-    made = gymnasium.make("colift/Lift-v0", scenario="pause")
+    made = gymnasium.make("colift/Lift-v0", behaviour="pause")
     observation, _ = made.reset(seed=3)
     assert made.observation_space.contains(observation)
     made.close()

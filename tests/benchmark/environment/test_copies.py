@@ -12,7 +12,7 @@ from colift.benchmark.environment import RobotEnv, parallel_env, training_env
 
 @pytest.mark.parametrize("duplicate", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
 def test_a_copy_has_a_world_of_its_own(duplicate):
-    first = RobotEnv(scenario="pause", subject="S2")
+    first = RobotEnv(behaviour="pause", subject="S2")
     second = duplicate(first)
     alone = [first.reset(seed=3)[0], *(first.step(np.full(1, 0.02))[0] for _ in range(5))]
     with pytest.raises(RuntimeError, match=r"call reset\(\) first"):

@@ -12,7 +12,7 @@ LEVEL = {"human": np.zeros(10), "robot": np.zeros(1)}
 
 @pytest.mark.parametrize("make", [parallel_env, RobotEnv])
 def test_a_closed_environment_says_so(make):
-    made = make(scenario="pause")
+    made = make(behaviour="pause")
     made.reset(seed=1)
     made.close()
     made.close()

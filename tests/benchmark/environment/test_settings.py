@@ -27,7 +27,7 @@ def test_an_odd_setting_is_refused_in_words(make, setting, value, told):
 
 @pytest.mark.parametrize("partner", ["human", "", None, ["nao"]])
 def test_the_robot_is_the_only_partner_of_the_gymnasium_view(partner):
-    with pytest.raises(InputError, match=r"partner must be 'nao' here, got .*parallel_env"):
+    with pytest.raises(InputError, match=r"partner must be a robot here, got .*parallel_env"):
         RobotEnv(partner=partner)
     RobotEnv(partner="nao").close()
 

@@ -23,7 +23,7 @@ def test_the_environment_of_intended_poses_passes_pettingzoos_tests(partner):
 
 @pytest.mark.filterwarnings("ignore:.*we recommend.*:UserWarning")
 def test_the_robots_side_of_it_passes_gymnasiums_test():
-    robot = RobotEnv(scenario="switching", task="intent")
+    robot = RobotEnv(behaviour="switching", task="intent")
     check_env(robot, skip_render_check=True)
     low, high = Intent().robot_bounds()
     assert np.array_equal(robot.observation_space.low, low)
@@ -47,7 +47,7 @@ def test_the_rewards_are_those_of_the_task():
 
 @pytest.mark.parametrize("task", ["level", "intent", "agree", "ball"])
 def test_lifts_are_drawn_for_every_task(task):
-    made = parallel_env(scenario="any", subject="draw", task=task)
+    made = parallel_env(behaviour="any", subject="draw", task=task)
     drawn = {made.reset(seed=seed)[1]["robot"]["scenario"].partition("/")[0] for seed in range(30)}
     assert drawn == set(make_task(task).behaviours)
     made.close()

@@ -53,7 +53,7 @@ class Still:
 
 @pytest.mark.parametrize("policy", [Copy, Still])
 def test_the_sum_of_the_score_s_rewards_is_the_rmse(policy):
-    made = RobotEnv(scenario="pause", subject="S2", reward="score")
+    made = RobotEnv(behaviour="pause", subject="S2", reward="score")
     rewards = episode(made, policy(), 3)
     lift = Lift(make_scenario("pause", "S2"))
     played = run_episode(lift, policy(), 3)
@@ -89,10 +89,10 @@ def test_a_drop_pays_as_the_score_does():
 
 
 def test_dropping_never_earns():
-    for reward, earns in (("level", True), ("score", False)):
+    for reward, earns in (("task", True), ("score", False)):
         made, given = thrown(reward)
         made.close()
-        alone = RobotEnv(scenario="pause", subject="S2", reward=reward)
+        alone = RobotEnv(behaviour="pause", subject="S2", reward=reward)
         lifted = sum(episode(alone, Still(), 3))
         assert (sum(each["robot"] for each in given) > lifted) == earns
         alone.close()
@@ -190,7 +190,7 @@ def test_pettingzoo_conforms_with_both_seats(partner):
         lambda: History(RobotEnv(**DRAWN), steps=3),
         lambda: Scaled(RobotEnv(**DRAWN)),
         training_env,
-        lambda: training_env("pause", "S2", reward="level", pace=False, steps=1),
+        lambda: training_env("pause", "S2", reward="task", pace=False, steps=1),
     ],
 )
 def test_gymnasium_conforms_with_every_wrapper(make):
@@ -200,8 +200,8 @@ def test_gymnasium_conforms_with_every_wrapper(make):
 
 
 def test_history_shows_heights_relative_to_the_human_and_the_past():
-    made = History(RobotEnv(scenario="smooth", subject="S1"), steps=4)
-    plain = RobotEnv(scenario="smooth", subject="S1")
+    made = History(RobotEnv(behaviour="smooth", subject="S1"), steps=4)
+    plain = RobotEnv(behaviour="smooth", subject="S1")
     seen = [plain.reset(seed=2)[0]]
     first, _ = made.reset(seed=2)
     np.testing.assert_array_equal(first[4:], 0.0)
@@ -220,7 +220,7 @@ def test_history_shows_heights_relative_to_the_human_and_the_past():
 
 def test_no_correction_extrapolates():
     made = training_env("pause", "S2")
-    plain = RobotEnv(scenario="pause", subject="S2", reward="score")
+    plain = RobotEnv(behaviour="pause", subject="S2", reward="score")
     rewards = episode(plain, Extrapolate(), 3)
     np.testing.assert_allclose(episode(made, Still(), 3), rewards)
     made.close()
