@@ -8,7 +8,6 @@ from colift.agents.humans.cued import LIVE_SUBJECT, Cue, Cued
 from colift.agents.humans.goals import GoalError, goal_error_mm, goal_errors, missed_words
 from colift.agents.humans.hand_log import Hand, HandLog, LoggedHand, Resampler
 from colift.agents.humans.jerky import Jerky
-from colift.agents.humans.partner import PARTNER_SUBJECT, Partner
 from colift.agents.humans.pause import Pause
 from colift.agents.humans.person_as_robot import PersonAsRobot
 from colift.agents.humans.plan import Behaviour, Embodied, Plan
@@ -17,6 +16,7 @@ from colift.agents.humans.recorded import Recorded
 from colift.agents.humans.recording_file import load_recordings
 from colift.agents.humans.recordings import Recording
 from colift.agents.humans.scripted import ScriptedHuman
+from colift.agents.humans.second_person import SECOND_PERSON, SecondPerson
 from colift.agents.humans.smooth import Smooth
 from colift.agents.humans.subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
 
@@ -24,7 +24,7 @@ __all__ = [
     "BOUNDS",
     "GOAL_RANGE",
     "LIVE_SUBJECT",
-    "PARTNER_SUBJECT",
+    "SECOND_PERSON",
     "SUBJECTS",
     "Behaviour",
     "ChangingGoal",
@@ -36,7 +36,6 @@ __all__ = [
     "HandLog",
     "Jerky",
     "LoggedHand",
-    "Partner",
     "Pause",
     "PersonAsRobot",
     "Plan",
@@ -46,6 +45,7 @@ __all__ = [
     "Recording",
     "Resampler",
     "ScriptedHuman",
+    "SecondPerson",
     "Smooth",
     "Subject",
     "goal_error_mm",

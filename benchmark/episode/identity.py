@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.calibration import CALIBRATION
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.base.identity import Root, code_hash
 from colift.base.registry import HUMANS, ROBOTS, TASKS, lookup, own_entries
 from colift.benchmark.episode.kept_world import lift_in_kept_world
@@ -17,7 +17,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.recorder import Recorder
 
-SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, Partner, lift_in_kept_world)
+SIMULATES: Final[tuple[Root, ...]] = (Lift, Recorder, SecondPerson, lift_in_kept_world)
 """The code from a plan and actions to a trace; the last entry includes the world of a level
 table."""
 

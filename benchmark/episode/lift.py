@@ -241,7 +241,7 @@ class Lift:
             (self.visual, self.haptic),
         )
 
-    def partner_view(self, target: Observation) -> Observation:
+    def second_person_view(self, target: Observation) -> Observation:
         """Return the senses of a second human at the robot's end, as :meth:`human_view`."""
         world = self.world
         return self._senses(
@@ -253,7 +253,7 @@ class Lift:
             (self.partner_visual, self.partner_haptic),
         )
 
-    def seen_by_partner(self) -> float:
+    def seen_by_second_person(self) -> float:
         """Return the height of the human's end [m] that a second human sees now."""
         return self.world.human_end[-1 - self.partner_visual]
 

@@ -8,7 +8,7 @@ from typing import ClassVar, Final, Protocol
 
 import numpy as np
 from colift.agents.agent import FRAME, Observation
-from colift.agents.humans import LIVE_SUBJECT, PARTNER_SUBJECT, Subject
+from colift.agents.humans import LIVE_SUBJECT, SECOND_PERSON, Subject
 from colift.agents.rules import SCALARS, ArrayFunctions, N
 from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
@@ -193,7 +193,7 @@ class HumanSeat:
 
     def observation(self, task: Task, lift: Playing) -> Observation:
         """Return the task's observation of a second human."""
-        return task.partner_observation(lift)
+        return task.second_person_observation(lift)
 
     def clipped(self, actions: NDArray[np.float64], control_period: float) -> float:
         """Return NaN: a person's references have no limit of speed."""
@@ -201,7 +201,7 @@ class HumanSeat:
 
 
 HUMANS: Final[Mapping[str, HumanSeat]] = {
-    "human": HumanSeat(person=PARTNER_SUBJECT),
+    "human": HumanSeat(person=SECOND_PERSON),
     "live": HumanSeat(person=LIVE_SUBJECT),
 }
 """The people at the robot's end by name: the simulated second human, and a real one."""

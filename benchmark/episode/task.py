@@ -57,13 +57,13 @@ class Playing(Protocol):
     def human_view(self, target: Observation) -> Observation:
         """Return the human's senses, laid out as :class:`.HumanObservation`, with a target [m]."""
 
-    def partner_view(self, target: Observation) -> Observation:
+    def second_person_view(self, target: Observation) -> Observation:
         """Return the same for a second human at the robot's end."""
 
     def planned(self) -> Observation:
         """Return the planned height of the human's end in each frame of the coming step [m]."""
 
-    def seen_by_partner(self) -> float:
+    def seen_by_second_person(self) -> float:
         """Return the height of the human's end [m] that a second human sees."""
 
     def clipped(self, actions: NDArray[np.float64]) -> float:
@@ -136,7 +136,7 @@ class Task(Protocol):
     def human_observation(self, lift: Playing) -> Observation:
         """Return the human's observation at the beginning of a step."""
 
-    def partner_observation(self, lift: Playing) -> Observation:
+    def second_person_observation(self, lift: Playing) -> Observation:
         """Return the observation of a second human in the robot's place."""
 
     def robot_bounds(self) -> Bounds:

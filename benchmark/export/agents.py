@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import Action, Agent, Observation, RobotObservation
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.episode.seeding import derive_seed
 
@@ -85,7 +85,7 @@ class SeededPartner:
 
     def __init__(self, seed: int) -> None:
         self._seed = derive_seed(seed, "set/human")
-        self._partner = Partner()
+        self._partner = SecondPerson()
 
     def reset(self, seed: int) -> None:
         """Begin an episode; it follows from the lift's own seed."""

@@ -21,8 +21,8 @@ import numpy as np
 from colift.agents.calibration import CALIBRATION, Calibration
 from colift.agents.control.predictor import PredictorParameters
 from colift.agents.estimators.motion_filter import MotionFilterParameters
-from colift.agents.humans import GOAL_RANGE, Partner
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans import GOAL_RANGE, SecondPerson
+from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.policies.blend import Blend
 from colift.agents.spec import AgentSpec
@@ -57,8 +57,8 @@ def _blend(process_noise: float) -> InMemorySpec:
 
 def _partner(lag: float) -> InMemorySpec:
     """Return the second human with another lag [s]."""
-    factory = partial(Partner, parameters=PartnerParameters(lag=lag))
-    return InMemorySpec(name="partner", factory=factory, source=Partner)
+    factory = partial(SecondPerson, parameters=SecondPersonParameters(lag=lag))
+    return InMemorySpec(name="partner", factory=factory, source=SecondPerson)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ from importlib.resources import files
 from typing import Any, Final, Protocol, runtime_checkable
 
 from colift.agents.agent import Agent
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.task import Task
@@ -27,7 +27,9 @@ HUMAN_HUMAN: Final = "human_human"
 HUMAN_HUMAN_LABEL: Final = "human-human baseline"
 """Its name in tables and pictures."""
 
-PARTNER_SPEC: Final = InMemorySpec(name=HUMAN_HUMAN, factory=Partner, source=Partner)
+SECOND_PERSON_SPEC: Final = InMemorySpec(
+    name=HUMAN_HUMAN, factory=SecondPerson, source=SecondPerson
+)
 """The partner: the second human of the human-human baseline."""
 
 
@@ -43,7 +45,7 @@ class Accompanied(Protocol):
 def partner_spec(task: Task) -> AgentSpec:
     """Return the second human of a task's human-human baseline."""
     if not isinstance(task, Accompanied):
-        return PARTNER_SPEC
+        return SECOND_PERSON_SPEC
     made = task.second_human
     return InMemorySpec(name=HUMAN_HUMAN, factory=made, source=made)
 

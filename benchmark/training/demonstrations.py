@@ -34,7 +34,7 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
 from colift.base.registry import SUITES, own_entries
@@ -96,7 +96,7 @@ def demonstrate(seed: int) -> Demonstration:
     behaviour, subject = BEHAVIOURS[seed % len(BEHAVIOURS)], f"draw-{seed}"
     lift = Lift(make_scenario(behaviour, subject, partner="human"))
     lift.reset(seed)
-    leader, demonstrator = lift.scripted_human(), Partner()
+    leader, demonstrator = lift.scripted_human(), SecondPerson()
     demonstrator.reset(derive_seed(seed, "demonstrator"))
     world = lift.world
     times, rows = [], []

@@ -7,7 +7,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import HUMANS, within_range
 from colift.benchmark.episode.turns import policy_seed
@@ -66,13 +66,13 @@ def _step(
 def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     """Return the RMSE [mm] of each lift (n,) of the human-human team, in the twin.
 
-    The second person is :class:`.Partner`, unchanged: it gets the observations of the task.
+    The second person is :class:`.SecondPerson`, unchanged: it gets the observations of the task.
     """
     drawn = draw_lifts(lifts)
     body, far_body = drawn.body, partner_body(len(lifts))
     person = HUMANS["human"].person
     delay = round(person.visual_delay / FRAME)
-    partners = [Partner(subject=person) for _ in lifts]
+    partners = [SecondPerson(subject=person) for _ in lifts]
     for partner in partners:
         partner.reset(policy_seed())
     size, steps = drawn.reference.shape[1], np.asarray(drawn.steps)

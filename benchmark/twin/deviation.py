@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import Agent
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
@@ -80,7 +80,7 @@ def policy_deviation(name: str, people: Sequence[int] = PEOPLE) -> TwinDeviation
 def pair_deviation(people: Sequence[int] = PEOPLE) -> TwinDeviation:
     """Return the deviation for two humans."""
     lifts = _lifts("human", people)
-    return _deviation(PAIR, _in_engine(Partner, lifts), play_pairs(lifts))
+    return _deviation(PAIR, _in_engine(SecondPerson, lifts), play_pairs(lifts))
 
 
 def _lifts(partner: str, people: Sequence[int]) -> list[tuple[Scenario, int]]:

@@ -8,7 +8,7 @@ from colift.agents.agent import FRAME
 from colift.agents.spec import AgentSpec
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import LATENCY, LONGEST_LATENCY
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.live.rooms.scenarios import MIXTURES
 
@@ -56,7 +56,7 @@ def live_partner(
     if name in policies:
         return LivePartner(name=name, seat=robot, spec=policies[name])
     others = {
-        SIMULATED: LivePartner(name=SIMULATED, seat="human", spec=PARTNER_SPEC),
+        SIMULATED: LivePartner(name=SIMULATED, seat="human", spec=SECOND_PERSON_SPEC),
         PERSON: LivePartner(name=PERSON, seat="live"),
         PERSON_AS_ROBOT: LivePartner(name=PERSON_AS_ROBOT, seat=robot),
     }

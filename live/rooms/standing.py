@@ -10,20 +10,20 @@ from colift.base.errors import EvaluatorFault
 from colift.benchmark.episode.scenario import LATENCY, Scenario
 from colift.benchmark.execution.batches import play
 from colift.benchmark.real_lifts.suites import SEED
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.live.rooms.choice import LivePartner, in_frames
 from colift.live.rooms.scenarios import ghost_scenario
 
 
 def ghost_rmse(cue: Cued, number: int) -> float:
     """Return the RMSE of two simulated people with the same cue [mm]."""
-    return _rmse(PARTNER_SPEC, ghost_scenario(cue, number))
+    return _rmse(SECOND_PERSON_SPEC, ghost_scenario(cue, number))
 
 
 def rehearse(partner: LivePartner, scenario: Scenario) -> None:
     """Play the coming cue once, by simulated people or a simulated person and the policy."""
     if partner.spec is None:
-        _rmse(PARTNER_SPEC, dataclasses.replace(scenario, partner="human"))
+        _rmse(SECOND_PERSON_SPEC, dataclasses.replace(scenario, partner="human"))
     else:
         _rmse(partner.spec, scenario)
 
@@ -64,7 +64,7 @@ class Standing:
         return {
             "latency_ms": round(1000 * self._latency),
             "policies": sorted(self._found, key=lambda each: each["rmse_mm"]),
-            "human_human_mm": _rmse(PARTNER_SPEC, people),
+            "human_human_mm": _rmse(SECOND_PERSON_SPEC, people),
         }
 
 

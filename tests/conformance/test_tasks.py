@@ -72,8 +72,8 @@ class Unlike(Level):
     def robot_observation(self, lift):
         return self._changed("robot_observation", super().robot_observation(lift))
 
-    def partner_observation(self, lift):
-        return self._changed("partner_observation", super().partner_observation(lift))
+    def second_person_observation(self, lift):
+        return self._changed("second_person_observation", super().second_person_observation(lift))
 
     def rewards(self, lift):
         return self._changed("rewards", super().rewards(lift))
@@ -99,7 +99,11 @@ def nan_first(view):
         ),
         ("robot_observation", nan_first, r"robot_observation\(\) is nan at index 0"),
         ("robot_observation", list, r"robot_observation\(\) returned a list; it must be an array"),
-        ("partner_observation", nan_first, r"partner_observation\(\) is nan at index 0"),
+        (
+            "second_person_observation",
+            nan_first,
+            r"second_person_observation\(\) is nan at index 0",
+        ),
         ("rewards", sum, r"rewards\(\) returned -.*; it must return two finite numbers"),
         ("failure", lambda _: True, r"failure\(\) returned True; it must return a reason or None"),
         ("score", lambda scores: {**scores, "more": 1.0}, "has the surplus more;"),

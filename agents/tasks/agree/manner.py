@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Final, Generic, NamedTuple
 
-from colift.agents.humans import PARTNER_SUBJECT, Subject
+from colift.agents.humans import SECOND_PERSON, Subject
 from colift.agents.humans.person import Trait, drawn_traits
 from colift.agents.rules import N
 
@@ -41,7 +41,7 @@ MANNERS: Final[Mapping[str, AgreeingManner[float]]] = {
     "S3": AgreeingManner(patience=0.0, trust=0.9, stiffness=0.9, insistence=1.5),
     "S4": AgreeingManner(patience=1.1, trust=0.8, stiffness=0.8, insistence=1.5),
     "S5": AgreeingManner(patience=0.1, trust=1.0, stiffness=1.0, insistence=1.0),
-    PARTNER_SUBJECT.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
+    SECOND_PERSON.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
 }
 """The manners of the five subjects, spread over the ranges, and of the second human."""
 

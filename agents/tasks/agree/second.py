@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from colift.agents.humans import PARTNER_SUBJECT, ScriptedHuman, Subject
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans import SECOND_PERSON, ScriptedHuman, Subject
+from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.rules import SCALARS
 from colift.agents.tasks.agree.manner import AgreeingManner, agreeing_manner
 from colift.agents.tasks.agree.negotiating import (
@@ -52,8 +52,8 @@ def with_secret(view: Observation, secret: Secret[float], uncertainty: float) ->
 class SecondNegotiator:
     """The person at the far end of a human-human pair; the observation is :func:`with_secret`.
 
-    It does not know the common way, but follows the end that it sees as the :class:`.Partner` does;
-    the height at which that end first comes to rest is the common height. In its turn
+    It does not know the common way, but follows the end that it sees, as :class:`.SecondPerson`
+    does; the height at which that end first comes to rest is the common height. In its turn
     (:func:`.negotiate`) the hand moves from there to its own hurdle. The hand has a person's noise,
     tremor and correction (:class:`.ScriptedHuman`).
 
@@ -66,12 +66,12 @@ class SecondNegotiator:
     """
 
     def __init__(
-        self, *, subject: Subject = PARTNER_SUBJECT, manner: AgreeingManner[float] | None = None
+        self, *, subject: Subject = SECOND_PERSON, manner: AgreeingManner[float] | None = None
     ) -> None:
         self._hand = ScriptedHuman(subject=subject)
         self._manner = manner or agreeing_manner(subject)
         self._delay = round(subject.visual_delay / FRAME)
-        self._parameters = PartnerParameters()
+        self._parameters = SecondPersonParameters()
         self._ahead = subject.visual_delay - self._parameters.lag
 
     def reset(self, seed: int) -> None:

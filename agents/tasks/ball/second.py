@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, Action, HumanObservation, Observation
-from colift.agents.humans import PARTNER_SUBJECT, ScriptedHuman, Subject
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans import SECOND_PERSON, ScriptedHuman, Subject
+from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.rules import SCALARS
 from colift.agents.tasks.ball.manner import PARTNER_MANNER, SteeringManner
 from colift.agents.tasks.ball.steering import (
@@ -43,18 +43,18 @@ def with_ball(view: Observation, places: list[float], target: Observation | None
 class BallPartner:
     """The second person: keeps the table level, and steers the ball as the first does.
 
-    It follows the other end as :class:`.Partner` does. If it does not know the target, it follows
-    the torque that it feels from the other's wrists.
+    It follows the other end as :class:`.SecondPerson` does. If it does not know the target, it
+    follows the torque that it feels from the other's wrists.
     """
 
     def __init__(
         self,
         *,
-        subject: Subject = PARTNER_SUBJECT,
+        subject: Subject = SECOND_PERSON,
         manner: SteeringManner[float] = PARTNER_MANNER,
-        parameters: PartnerParameters | None = None,
+        parameters: SecondPersonParameters | None = None,
     ) -> None:
-        parameters = parameters or PartnerParameters()
+        parameters = parameters or SecondPersonParameters()
         self._hand = ScriptedHuman(subject=subject)
         self._manner = manner
         self._delay = round(subject.visual_delay / FRAME)

@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME, Action, HumanObservation, Observation
-from colift.agents.humans import PARTNER_SUBJECT, ScriptedHuman
+from colift.agents.humans import SECOND_PERSON, ScriptedHuman
 from colift.agents.tasks.intent.pose_filter import PoseFilter, PoseFilterParameters
 from colift.agents.tasks.touch.touched import TABLE_LENGTH
 
@@ -33,9 +33,9 @@ class Companion:
     """
 
     def __init__(self) -> None:
-        self._hand = ScriptedHuman(subject=PARTNER_SUBJECT)
+        self._hand = ScriptedHuman(subject=SECOND_PERSON)
         self._filter = PoseFilter(FEELING)
-        self._delay = PARTNER_SUBJECT.visual_delay
+        self._delay = SECOND_PERSON.visual_delay
 
     def reset(self, seed: int) -> None:
         """Begin an episode; the noise comes from ``seed``."""

@@ -159,10 +159,10 @@ class Agree(Touch):
         own = secret(SCALARS, lift.facts.human, lift.frame)
         return with_secret(lift.human_view(lift.planned()), own, self.uncertainty)
 
-    def partner_observation(self, lift: Playing) -> Observation:
+    def second_person_observation(self, lift: Playing) -> Observation:
         """Return the second human's hurdle, which is the robot's, and the senses."""
         own = secret(SCALARS, lift.facts.robot, lift.frame)
-        return with_secret(super().partner_observation(lift), own, self.uncertainty)
+        return with_secret(super().second_person_observation(lift), own, self.uncertainty)
 
     def human_bounds(self, frames: int) -> Bounds:
         """Return the bounds of the humans' observations."""

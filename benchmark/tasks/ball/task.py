@@ -101,9 +101,9 @@ class BallSteering(Touch):
         """Return the human's view of the ball, and the human's senses."""
         return _with_ball(lift, lift.human_view(lift.planned()), lift.visual, known=True)
 
-    def partner_observation(self, lift: Playing) -> Observation:
+    def second_person_observation(self, lift: Playing) -> Observation:
         """Return the same for a second human in the robot's place."""
-        view = super().partner_observation(lift)
+        view = super().second_person_observation(lift)
         return _with_ball(lift, view, lift.partner_visual, known=bool(lift.facts.shown))
 
     def human_bounds(self, frames: int) -> Bounds:

@@ -83,9 +83,9 @@ class Level:
         """Return the human's senses and the intended heights in the coming step."""
         return lift.human_view(np.array(lift.intention.target))
 
-    def partner_observation(self, lift: Playing) -> Observation:
+    def second_person_observation(self, lift: Playing) -> Observation:
         """Return a second human's senses; its target is the height of the end that it sees."""
-        return lift.partner_view(np.full(lift.frames_per_step, lift.seen_by_partner()))
+        return lift.second_person_view(np.full(lift.frames_per_step, lift.seen_by_second_person()))
 
     def robot_bounds(self) -> Bounds:
         """Return the bounds of the robot's senses."""

@@ -22,7 +22,7 @@ from colift.agents.policies.anticipate import (
 )
 from colift.base.errors import InputError
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 
@@ -170,7 +170,7 @@ def test_with_a_person_it_never_met_it_beats_the_human_partner_and_blend():
     suite = held_out(("smooth", "pause", "changing_goal"), (200_000, 200_001, 200_002))
     mine = run_suite(PolicySpec(text="anticipate"), suite)
     assert not any(episode.failure for episode in mine.episodes)
-    human_human = run_suite(PARTNER_SPEC, suite.with_partner("human"))
+    human_human = run_suite(SECOND_PERSON_SPEC, suite.with_partner("human"))
     blend = run_suite(PolicySpec(text="blend"), suite)
     assert rmse(mine).mean() < 0.7 * rmse(human_human).mean()
     assert (rmse(mine) < 0.5 * rmse(blend)).all()

@@ -16,7 +16,7 @@ from colift.benchmark.channels.teleoperated import ANSWERED, Teleoperated
 from colift.benchmark.episode.seat import limited_command
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.suites.suite import make_suite
 from colift.robots.nao.kinematics import STROKE
 
@@ -170,4 +170,4 @@ def test_the_policys_own_copy_of_an_observation_cannot_change_the_robots():
 
 def test_a_second_person_has_no_channel():
     with pytest.raises(InputError, match="a channel leads to a robot, not to the partner 'human'"):
-        run(PARTNER_SPEC, ONE.with_partner("human"), channel=Channel())
+        run(SECOND_PERSON_SPEC, ONE.with_partner("human"), channel=Channel())

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.agents.policies.copy import Copy
 from colift.agents.policies.hold import Hold
 from colift.benchmark.bundle.table import table_row
@@ -128,4 +128,4 @@ def test_the_share_of_actions_that_were_cut_is_told(lift):
 def test_a_policy_without_an_action_and_a_second_human_have_no_share(lift):
     assert math.isnan(run_episode(lift, Scripted(fail, after=0), 4).scores["clipped"])
     with contextlib.closing(Lift(make_scenario("smooth", partner="human"))) as human_human:
-        assert math.isnan(run_episode(human_human, Partner(), 4).scores["clipped"])
+        assert math.isnan(run_episode(human_human, SecondPerson(), 4).scores["clipped"])

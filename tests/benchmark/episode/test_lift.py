@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation, RobotObservation
-from colift.agents.humans import PARTNER_SUBJECT
+from colift.agents.humans import SECOND_PERSON
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
 from colift.benchmark.environment import parallel_env
@@ -97,7 +97,7 @@ class TestHumanView:
         view = made.partner_observation()
         assert view.shape == made.human_observation().shape
         others = since_reset(made.world.human_end)
-        seen = 250 - 1 - round(PARTNER_SUBJECT.visual_delay / 0.01)
+        seen = 250 - 1 - round(SECOND_PERSON.visual_delay / 0.01)
         assert set(view[HumanObservation.TARGET].tolist()) == {others[seen]}
 
 

@@ -46,12 +46,12 @@ import json
 from colift.agents.humans import Subject
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import fingerprint, results
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 suite = make_suite("quick-v1").with_seeds(0, 1)
 found = {"people": repr([Subject.draw(seed) for seed in range(20)])}
-for policy in (PolicySpec(text="copy"), PARTNER_SPEC):
+for policy in (PolicySpec(text="copy"), SECOND_PERSON_SPEC):
     played = suite.with_partner("human") if policy.name != "copy" else suite
     run = run_suite(policy, played)
     content = results(run, {}).plain()

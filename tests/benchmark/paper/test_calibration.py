@@ -7,7 +7,7 @@ import pytest
 from colift.agents.calibration import CALIBRATION
 from colift.agents.estimators.motion_filter import MotionFilterParameters
 from colift.agents.humans import SUBJECTS
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.registry import SUITES, own_entries
 from colift.benchmark.execution.runner import run_suite
@@ -18,7 +18,7 @@ from colift.benchmark.suites.suite import make_suite
 def test_they_are_the_ones_in_use_and_say_where_they_come_from():
     assert {name: s.amplitude for name, s in SUBJECTS.items()} == CALIBRATION.amplitude
     assert MotionFilterParameters().process_noise == CALIBRATION.process_noise
-    assert PartnerParameters().lag == CALIBRATION.partner_lag
+    assert SecondPersonParameters().lag == CALIBRATION.partner_lag
     assert CALIBRATION.provenance["command"] == "colift calibrate"
     assert CALIBRATION.provenance["seeds"] == list(SEEDS)
 

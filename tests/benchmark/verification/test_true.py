@@ -71,9 +71,9 @@ class TestTrue:
 
     def test_the_human_human_baseline_is_verified(self, tmp_path):
         suite = make_suite("quick-v1").with_seeds(0, 1).with_partner("human")
-        from colift.benchmark.results.baselines import PARTNER_SPEC
+        from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 
-        run = run_suite(PARTNER_SPEC, suite)
+        run = run_suite(SECOND_PERSON_SPEC, suite)
         write_bundle(tmp_path / "baseline", run, results(run, {}).plain())
         assert verify(tmp_path / "baseline").ok
 

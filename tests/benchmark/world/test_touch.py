@@ -5,7 +5,7 @@ from contextlib import closing
 
 import numpy as np
 import pytest
-from colift.agents.humans import PARTNER_SUBJECT, SUBJECTS
+from colift.agents.humans import SECOND_PERSON, SUBJECTS
 from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.world import Ball, BulletWorld, HumanFarEnd, NaoFarEnd
 from colift.benchmark.world.table import (
@@ -79,7 +79,7 @@ def test_a_reset_restores_every_bit(world):
     assert world.state() == first
 
 
-@pytest.mark.parametrize("far", [NaoFarEnd(), HumanFarEnd(body_parameters(PARTNER_SUBJECT))])
+@pytest.mark.parametrize("far", [NaoFarEnd(), HumanFarEnd(body_parameters(SECOND_PERSON))])
 def test_the_weight_of_a_ball_is_shared_by_its_place(far):
     """Both ends together carry table and ball; a ball in the middle is carried in halves."""
     ball = Ball(friction=5.0)

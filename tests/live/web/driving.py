@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, HumanObservation
-from colift.agents.humans import Partner
+from colift.agents.humans import SecondPerson
 from colift.benchmark.episode.turns import policy_seed
 from colift.live.rooms.priority import ORDINARY, RELAY, take_turn
 from numpy.typing import NDArray
@@ -174,7 +174,9 @@ class Driven:
         end: dict[str, Any] = next(t for t in self.told[after:] if t["type"] in ("end", "void"))
         return end
 
-    async def follow(self, partner: Partner, delay: float, start: dict[str, Any]) -> dict[str, Any]:
+    async def follow(
+        self, partner: SecondPerson, delay: float, start: dict[str, Any]
+    ) -> dict[str, Any]:
         """Move the hand as a simulated second person, who sees the pictures of this page.
 
         Parameters

@@ -24,14 +24,14 @@ from pathlib import Path
 import numpy as np
 import websockets
 from colift.agents.calibration import CALIBRATION
-from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, HandLog, Partner, Played
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans import LIVE_SUBJECT, SUBJECTS, HandLog, Played, SecondPerson
+from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.batches import play
 from colift.benchmark.real_lifts.session_folder import SessionFolder
-from colift.benchmark.results.baselines import PARTNER_SPEC
+from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.live.rooms.choice import MIXED, PERSON
 from colift.live.rooms.scenarios import cue_of
@@ -160,7 +160,7 @@ async def pair(url, out, lifts):
             made = references(await cue_for(host, out, PERSON))
             start = await gripped(host, guest)
             lag = CALIBRATION.partner_lag - known
-            partner = Partner(parameters=PartnerParameters(lag=lag))
+            partner = SecondPerson(parameters=SecondPersonParameters(lag=lag))
             end, _ = await asyncio.gather(
                 host.move(hand_of(made), start["at"] / 1000),
                 guest.follow(partner, LIVE_SUBJECT.visual_delay, start),
@@ -173,7 +173,7 @@ async def pair(url, out, lifts):
             allowed, known = known, known if unaware else delay
             if seed == lifts:
                 continue
-            ideal = offline(folder, made, PARTNER_SPEC)
+            ideal = offline(folder, made, SECOND_PERSON_SPEC)
             ratios.append(end["rmse_mm"] / ideal)
             print(
                 f"pair {seed:2} browser {end['rmse_mm']:6.2f} offline {ideal:6.2f} mm "

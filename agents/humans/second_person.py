@@ -10,7 +10,7 @@ from colift.agents.calibration import CALIBRATION
 from colift.agents.humans.scripted import ScriptedHuman
 from colift.agents.humans.subject import Subject
 
-PARTNER_SUBJECT: Final = Subject(
+SECOND_PERSON: Final = Subject(
     name="partner",
     amplitude=0.22,
     duration=2.1,
@@ -37,8 +37,8 @@ partner's own lifts have no effect.
 
 
 @dataclass(frozen=True, kw_only=True)
-class PartnerParameters:
-    """Parameters of :class:`Partner`."""
+class SecondPersonParameters:
+    """Parameters of :class:`SecondPerson`."""
 
     lag: float = CALIBRATION.partner_lag
     """Intended lag behind the other person [s]: the only calibrated number, chosen so that the
@@ -48,7 +48,7 @@ class PartnerParameters:
     """Time constant with which the seen velocity is smoothed [s]: one control period."""
 
 
-class Partner:
+class SecondPerson:
     """Keeps the table level with another person, as a person would.
 
     It sees the other end ``visual_delay`` late, at the height z with the smoothed velocity v, and
@@ -63,10 +63,10 @@ class Partner:
     def __init__(
         self,
         *,
-        subject: Subject = PARTNER_SUBJECT,
-        parameters: PartnerParameters | None = None,
+        subject: Subject = SECOND_PERSON,
+        parameters: SecondPersonParameters | None = None,
     ) -> None:
-        self._parameters = parameters or PartnerParameters()
+        self._parameters = parameters or SecondPersonParameters()
         self._hand = ScriptedHuman(subject=subject)
         self._ahead = subject.visual_delay - self._parameters.lag
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation
-from colift.agents.humans import PARTNER_SUBJECT, Partner
-from colift.agents.humans.partner import PartnerParameters
+from colift.agents.humans import SECOND_PERSON, SecondPerson
+from colift.agents.humans.second_person import SecondPersonParameters
 
 
 def view(own, other, frames=10):
@@ -17,7 +17,7 @@ def view(own, other, frames=10):
 
 def noiseless(lag):
     """Return a partner whose noise is too small to matter here."""
-    partner = Partner(parameters=PartnerParameters(lag=lag, velocity_memory=0.02))
+    partner = SecondPerson(parameters=SecondPersonParameters(lag=lag, velocity_memory=0.02))
     partner.reset(1)
     return partner
 
@@ -28,7 +28,7 @@ def follow(partner, path, steps):
     Returns the references of the last step and the frame at which it began.
     """
     last = np.zeros(10)
-    delay = round(PARTNER_SUBJECT.visual_delay / 0.01)
+    delay = round(SECOND_PERSON.visual_delay / 0.01)
     for step in range(steps):
         now = 10 * (step + 1)
         last = partner.act(view(last, path[now - delay - 10 + 60 : now - delay + 60]))
@@ -55,7 +55,7 @@ def test_the_same_seed_gives_the_same_bits_and_another_does_not():
     path = 0.1 * np.sin(np.arange(400) / 40)
     runs = []
     for seed in (3, 3, 4):
-        partner = Partner()
+        partner = SecondPerson()
         partner.reset(seed)
         runs.append(follow(partner, path, 20)[0].tobytes())
     assert runs[0] == runs[1] != runs[2]
