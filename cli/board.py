@@ -46,17 +46,17 @@ def board(
         print(f"Next: colift board --board {board}")
         return
     # The default folder is for a first look at the practice season.
-    with opened_board(board, open_to_read, new=board == BOARD) as place:
+    with opened_board(board, open_to_read, new=board == BOARD) as opened:
         if backup is not None:
-            _report(back_up(place, backup), f"backed up {board} to {backup}")
+            _report(back_up(opened, backup), f"backed up {board} to {backup}")
             print("It holds the secrets of the seasons: keep it to yourself.")
         elif site is not None:
-            write_site(place, site)
+            write_site(opened, site)
             print(f"Open {(site / 'index.html').absolute().as_uri()}")
         elif as_json:
-            print_json(_content(place, season))
+            print_json(_content(opened, season))
         else:
-            _show(place, season)
+            _show(opened, season)
 
 
 def _report(backup: Backup, action: str) -> None:
@@ -65,35 +65,35 @@ def _report(backup: Backup, action: str) -> None:
         print(f"missing: {each}", file=sys.stderr)
 
 
-def _show(place: Board, season: str | None) -> None:
-    console, info = stdout_console(), place.season_info(season)
-    standings, human_human = place.standings(info.name), place.human_human(info.name)
+def _show(opened: Board, season: str | None) -> None:
+    console, info = stdout_console(), opened.season_info(season)
+    standings, human_human = opened.standings(info.name), opened.human_human(info.name)
     show(board_table(info, standings, human_human, console.width), console=console)
-    for each in place.events(info.name):
+    for each in opened.events(info.name):
         if each.submission is not None:
             what = f"{each.kind} of {each.submission[:16]} by {each.who}"
             print(f"{each.at:%Y-%m-%d} {what}: {each.why}")
-    others = [each.name for each in place.seasons() if each.name != info.name]
+    others = [each.name for each in opened.seasons() if each.name != info.name]
     if others:
         print(f"Other seasons: {', '.join(others)} (--season NAME)")
     if info.current:
-        print(_waiting(place))
+        print(_waiting(opened))
 
 
-def _waiting(place: Board) -> str:
-    open_jobs = [job for job in Queue(place).jobs() if not job.ended]
+def _waiting(opened: Board) -> str:
+    open_jobs = [job for job in Queue(opened).jobs() if not job.ended]
     if not open_jobs:
         return "The queue is empty. To submit: colift submit DIR --board PATH"
     first = ", ".join(f"{job.name} ({job.state})" for job in open_jobs[:5])
     text = f"{len(open_jobs)} in the queue: {first}"
-    missed = Queue(place).unattended(open_jobs[0])
+    missed = Queue(opened).unattended(open_jobs[0])
     return text if missed is None else f"{text}\n{missed}. To start one: colift worker --board PATH"
 
 
-def _content(place: Board, season: str | None) -> dict[str, Any]:
-    info: SeasonInfo = place.season_info(season)
-    human_human = place.human_human(info.name)
-    place.standings(info.name)  # With its own ranks.
+def _content(opened: Board, season: str | None) -> dict[str, Any]:
+    info: SeasonInfo = opened.season_info(season)
+    human_human = opened.human_human(info.name)
+    opened.standings(info.name)  # With its own ranks.
     return {
         "season": {**vars(info), "began_at": info.began_at.isoformat()},
         "human_human": None
@@ -102,5 +102,5 @@ def _content(place: Board, season: str | None) -> dict[str, Any]:
             "rmse_mm": {"mean": human_human.rmse_mm.mean, "ci95": list(human_human.rmse_mm.ci95)},
             **human_human.means,
         },
-        "rows": standings_plain(place, info.name),
+        "rows": standings_plain(opened, info.name),
     }

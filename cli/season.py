@@ -24,13 +24,13 @@ def begin(
     own: Annotated[bool, typer.Option(help="Queue colift's own policies, for comparison.")] = True,
 ) -> None:
     """Begin a season with a new secret; earlier rows stay in their own table."""
-    with opened_board(board, new=True) as place:
-        season = place.new_season(name, suite)
+    with opened_board(board, new=True) as opened:
+        season = opened.new_season(name, suite)
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
             names = own_policies(season.suite.scenarios[0].task.name)
-            jobs = [Queue(place).enqueue_builtin(builtin_entrant(each)) for each in names]
+            jobs = [Queue(opened).enqueue_builtin(builtin_entrant(each)) for each in names]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
 
@@ -38,6 +38,6 @@ def begin(
 @app.command()
 def reveal(name: NewSeason, why: Why = "the season is over", board: ExistingBoard = BOARD) -> None:
     """Publish the secret of a finished season: anyone can then play its hidden lifts."""
-    with opened_board(board) as place:
-        place.reveal(name, LOCAL, why)
+    with opened_board(board) as opened:
+        opened.reveal(name, LOCAL, why)
         print(f"the secret of season {name}: {place.season_info(name).revealed}")

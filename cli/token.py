@@ -18,23 +18,23 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 @app.command()
 def add(name: Submitter, board: BoardFolder = BOARD) -> None:
     """Create a submitter's token and print it; it cannot be shown again."""
-    with opened_board(board, new=True) as place:
-        print(Tokens(place).add(name))
+    with opened_board(board, new=True) as opened:
+        print(Tokens(opened).add(name))
 
 
 @app.command()
 def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
     """Revoke a submitter's token, effective at once."""
-    with opened_board(board) as place:
-        Tokens(place).revoke(name)
+    with opened_board(board) as opened:
+        Tokens(opened).revoke(name)
     print(f"the token of {name} is revoked")
 
 
 @app.command("list")
 def list_tokens(board: ExistingBoard = BOARD) -> None:
     """List the submitters, with the dates of their tokens."""
-    with opened_board(board, open_to_read) as place:
-        found = Tokens(place).all()
+    with opened_board(board, open_to_read) as opened:
+        found = Tokens(opened).all()
     rows = (
         (
             each.name,

@@ -33,8 +33,8 @@ class PolicySpec(InProcess):
     @property
     def name(self) -> str:
         """The name for tables: a registered name or the class, and the parameters as given."""
-        place, comma, parameters = self.parts
-        return place.rpartition(":")[2] + comma + parameters
+        origin, comma, parameters = self.parts
+        return origin.rpartition(":")[2] + comma + parameters
 
     def load(self) -> type[Agent]:
         """Return the policy's class.
@@ -44,16 +44,16 @@ class PolicySpec(InProcess):
         InputError
             If there is no such policy, or the class is not one.
         """
-        place, _, _ = self.parts
-        source, colon, name = place.rpartition(":")
+        origin, _, _ = self.parts
+        source, colon, name = origin.rpartition(":")
         if not colon:
-            if Path(place).suffix == ".py" or "/" in place:
+            if Path(origin).suffix == ".py" or "/" in origin:
                 raise InputError(f"{place} names no class; give {with_class(Path(place))}")
-            return _checked(lookup(POLICIES, place), place)
+            return _checked(lookup(POLICIES, origin), origin)
         module = _from_file(Path(source)) if source.endswith(".py") else _from_module(source)
         if not hasattr(module, name):
             raise InputError(f"{source} has no class {name!r}{_listing(module)}")
-        return _checked(getattr(module, name), place)
+        return _checked(getattr(module, name), origin)
 
     def check(self) -> None:
         """Raise an InputError, as :meth:`make`, if there is no such policy or parameter."""
@@ -122,13 +122,13 @@ class PolicySpec(InProcess):
 
     def moved(self, folder: Path) -> "PolicySpec":
         """Return the same policy with its file in another folder."""
-        place, comma, parameters = self.parts
-        source, _, name = place.rpartition(":")
+        origin, comma, parameters = self.parts
+        source, _, name = origin.rpartition(":")
         return PolicySpec(text=f"{folder / Path(source).name}:{name}{comma}{parameters}")
 
     def _values(self, policy: type) -> dict[str, Any]:
         """Return the values of the parameters that are given, by name."""
-        place, comma, parameters = self.parts
+        origin, comma, parameters = self.parts
         try:
             return read_values(policy, parameters) if comma else {}
         except InputError as error:

@@ -117,7 +117,7 @@ _CHUNK: Final = 4 * 1024
 class Assignment(NamedTuple):
     """A policy to serve."""
 
-    place: str
+    origin: str
     """Place of its class: ``module:Class`` or ``file.py:Class``."""
     parameters: str = ""
     """Its parameters: ``name=value,name=value``."""

@@ -40,23 +40,23 @@ def choose_policy(text: str, isolation: str = AUTO) -> AgentSpec:
     """
     level = usable_level(isolation)
     spec = PolicySpec(text=text)
-    place, comma, parameters = spec.parts
+    origin, comma, parameters = spec.parts
     if comma and not Path(text).is_dir():  # The name of a folder may have a comma.
         split(parameters)
-    own = place in own_entries(POLICIES)
+    own = origin in own_entries(POLICIES)
     if own and level is None:
         spec.load()
         return spec
     if own:
-        return _sandboxed(spec, entry_of(POLICIES, place).value, spec.digest(), level)
-    if place in entries(POLICIES) or ":" in place:
+        return _sandboxed(spec, entry_of(POLICIES, origin).value, spec.digest(), level)
+    if origin in entries(POLICIES) or ":" in origin:
         return spec if isolation == NONE else _foreign(spec, level)
     if Path(text).is_dir():
-        place, parameters = text, ""
-    refuse_other_file(place)
-    if not place or place.endswith(".py") or not ("/" in place or Path(place).is_dir()):
+        origin, parameters = text, ""
+    refuse_other_file(origin)
+    if not origin or origin.endswith(".py") or not ("/" in origin or Path(origin).is_dir()):
         spec.load()  # Raises: the class is missing, or there is no such name.
-    submission = open_submission(Path(place))
+    submission = open_submission(Path(origin))
     if isolation == NONE:
         return submission.trusted(parameters)
     return submission.sandboxed(level or auto_level(), parameters)
@@ -120,26 +120,26 @@ def auto_level() -> str:
 
 def _foreign(spec: PolicySpec, level: str | None) -> SandboxedPolicy:
     """Return a third party's class in a sandbox, where it sees its own file and packages."""
-    place, _, parameters = spec.parts
-    if place in entries(POLICIES):
-        place = entry_of(POLICIES, place).value
-    source, _, name = place.rpartition(":")
+    origin, _, parameters = spec.parts
+    if origin in entries(POLICIES):
+        origin = entry_of(POLICIES, origin).value
+    source, _, name = origin.rpartition(":")
     if source.endswith(".py"):
         path = Path(source)
         folder, _ = snapshot_file(path)
         digest = source_hash((folder / path.name).read_bytes())
         digest = digest_with(digest, merged(parameters))
         return _sandboxed(spec, f"{path.name}:{name}", digest, level, folder)
-    return _sandboxed(spec, place, digest_with(module_digest(source), merged(parameters)), level)
+    return _sandboxed(spec, origin, digest_with(module_digest(source), merged(parameters)), level)
 
 
 def _sandboxed(
-    spec: PolicySpec, place: str, digest: str, level: str | None, folder: Path | None = None
+    spec: PolicySpec, origin: str, digest: str, level: str | None, folder: Path | None = None
 ) -> SandboxedPolicy:
     _, _, parameters = spec.parts
     return SandboxedPolicy(
         name=spec.name,
-        place=place,
+        origin=origin,
         parameters=parameters,
         folder=folder,
         source_digest=digest,

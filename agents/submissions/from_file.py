@@ -40,8 +40,8 @@ def write_from(folder: Path, text: str) -> tuple[str, ...]:
         from colift.agents.submissions.from_network import write_from_network
 
         return write_from_network(folder, text)
-    place, _, parameters = PolicySpec(text=text).parts
-    file, colon, name = place.rpartition(":")
+    origin, _, parameters = PolicySpec(text=text).parts
+    file, colon, name = origin.rpartition(":")
     if not (colon and file.endswith(".py")):
         raise InputError(
             f"a policy to copy must be file.py:Class,parameters or file.onnx, got {text!r}"

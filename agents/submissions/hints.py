@@ -17,7 +17,7 @@ MISSING: Final = re.compile(r"No module named '([\w.]+)'")
 """Python's words for an import of something that is not there."""
 
 
-def refuse_other_file(place: str) -> None:
+def refuse_other_file(origin: str) -> None:
     """Refuse a file, or the name of one without its suffix, that is not yet the name of a policy.
 
     Raises
@@ -25,13 +25,13 @@ def refuse_other_file(place: str) -> None:
     InputError
         If there is such a file; the message has the form that works.
     """
-    path = Path(place)
+    path = Path(origin)
     source = path.with_name(f"{path.name}.py") if path.name else path
     if path.is_file() and path.suffix == ONNX:
         raise InputError(
             f"{place} is a network, not yet a submission",
             remedy=Remedy.SUBMISSION_FROM_FILE,
-            target=place,
+            target=origin,
         )
     if path.is_file() and path.suffix != ".py":
         if (path.parent / MANIFEST).is_file():
@@ -59,8 +59,8 @@ def import_hint(text: str, message: str) -> str:
     if found is None:
         return ""
     name = found[1].partition(".")[0]
-    place = PolicySpec(text=text).parts[0]
-    source, _, _ = place.rpartition(":")
+    origin = PolicySpec(text=text).parts[0]
+    source, _, _ = origin.rpartition(":")
     beside = [Path(source).parent / each for each in (f"{name}.py", name)]
     files = [each for each in beside if source.endswith(".py") and each.exists()]
     if files:
@@ -79,13 +79,13 @@ def board_remarks(text: str) -> list[str]:
 
     The sources are parsed, not run. Installed modules and registered policies are not looked at.
     """
-    place = PolicySpec(text=text).parts[0]
-    source, _, _ = place.rpartition(":")
-    if place in entries(POLICIES):
+    origin = PolicySpec(text=text).parts[0]
+    source, _, _ = origin.rpartition(":")
+    if origin in entries(POLICIES):
         return []
     if source.endswith(".py"):
         return list(undeclared(*snapshot_file(Path(source)), tuple(PACKAGES)))
-    folder = Path(text) if Path(text).is_dir() else Path(place)
+    folder = Path(text) if Path(text).is_dir() else Path(origin)
     if not folder.is_dir():
         return []
     submission = open_submission(folder)

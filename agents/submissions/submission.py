@@ -58,7 +58,7 @@ class Submission:
         """
         return SandboxedPolicy(
             name=self._name(parameters),
-            place=self._place,
+            origin=self._place,
             parameters=self._parameters(parameters),
             folder=self.folder,
             source_digest=self._digest(parameters),

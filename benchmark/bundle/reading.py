@@ -48,7 +48,7 @@ class Bundle:
     episodes: tuple[Episode, ...]
     """The episodes, without step times. If another version of the metrics computed their scores,
     a metric that the version did not have is NaN."""
-    places: tuple[int, ...]
+    indices: tuple[int, ...]
     """The place of each episode in the suite, counted from 0."""
     recipe: Recipe
     """The recipe of the suite."""
@@ -138,8 +138,8 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     if len(platform) > MOST_PLATFORM:
         raise InputError(f"{MANIFEST}: platform has more than {MOST_PLATFORM} entries")
     lifts = len(recipe.scenarios) * len(recipe.seeds)
-    traces, places = parse_traces(parse_arrays(files[TRACES], TRACES, LARGEST_LIFT * lifts))
-    if places[-1] >= lifts:
+    traces, indices = parse_traces(parse_arrays(files[TRACES], TRACES, LARGEST_LIFT * lifts))
+    if indices[-1] >= lifts:
         raise InputError(f"{TRACES}: the suite has no place {places[-1]}")
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
     results = _results(files[RESULTS], acted=any(len(trace.action) for trace in traces))
@@ -154,7 +154,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     return Bundle(
         results=results,
         episodes=episodes,
-        places=places,
+        indices=indices,
         recipe=recipe,
         platform=platform,
     )

@@ -31,7 +31,7 @@ of internals take 11 MB."""
 
 
 def trace_arrays(
-    traces: Callable[[], Iterable[Trace]], places: Sequence[int]
+    traces: Callable[[], Iterable[Trace]], indices: Sequence[int]
 ) -> Iterator[tuple[str, Parts]]:
     """Yield the arrays of the traces by name.
 
@@ -51,7 +51,7 @@ def trace_arrays(
         frames.append(len(trace.human_end))
         steps.append(len(trace.action))
         said |= trace.internals.keys()
-    for name, counts in (("places", places), ("frames", frames), ("steps", steps)):
+    for name, counts in (("places", indices), ("frames", frames), ("steps", steps)):
         yield name, Parts(dtype="<i8", shape=(len(counts),), parts=[np.array(counts)])
 
     def joined(rows: Sequence[int], series: Callable[[Trace], NDArray[Any]]) -> Parts:
@@ -90,11 +90,11 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
         If an array is missing, superfluous, of the wrong type or shape, or not finite.
     """
     arrays = dict(arrays)
-    places, frames, steps = (_counts(arrays, name) for name in ("places", "frames", "steps"))
-    episodes = len(places)
+    indices, frames, steps = (_counts(arrays, name) for name in ("places", "frames", "steps"))
+    episodes = len(indices)
     if not episodes or len(frames) != episodes or len(steps) != episodes:
         raise InputError(f"{TRACES}: places, frames and steps must have one number per episode")
-    if any(b <= a for a, b in itertools.pairwise(places)):
+    if any(b <= a for a, b in itertools.pairwise(indices)):
         raise InputError(f"{TRACES}: places must increase")
     series = {
         name: _series(arrays, name, sum(steps) if name in BY_STEP else sum(frames))
@@ -125,7 +125,7 @@ def parse_traces(arrays: Arrays) -> tuple[tuple[Trace, ...], tuple[int, ...]]:
         said = {name.removeprefix(INTERNALS): all_[step] for name, all_ in internals.items()}
         own = {name: all_[frame] for name, all_ in added.items()}
         traces.append(Trace(**cut, state=state[step], added=own, internals=said))
-    return tuple(traces), places
+    return tuple(traces), indices
 
 
 def _counts(arrays: Arrays, name: str) -> tuple[int, ...]:

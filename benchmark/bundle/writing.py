@@ -79,7 +79,7 @@ def write_bundle(
         for name, data in files.items():
             (made / name).write_bytes(data)
         with (made / TRACES).open("w+b") as file:
-            traces = trace_arrays(lambda: (each.trace for each in run.episodes), places(run))
+            traces = trace_arrays(lambda: (each.trace for each in run.episodes), indices(run))
             write_arrays(file, traces)
         manifest = {
             "format": FORMAT,
@@ -95,7 +95,7 @@ def _sha256(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def places(run: Run) -> list[int]:
+def indices(run: Run) -> list[int]:
     """Return the place in the suite of each episode of a run, counted from 0."""
     names = [
         (scenario.behaviour, scenario.subject.name, scenario.trial, seed)

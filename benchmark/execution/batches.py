@@ -33,7 +33,7 @@ class Batch:
     policy: AgentSpec
     scenario: Scenario
     seeds: tuple[int, ...]
-    places: tuple[int, ...]
+    indices: tuple[int, ...]
     """The place of each episode in the suite, counted from 0."""
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
@@ -41,7 +41,7 @@ class Batch:
     def play(self) -> Iterator[tuple[int, Episode]]:
         """Yield the place and the episode of each seed; see :func:`play`."""
         episodes = play(self.policy, self.scenario, self.seeds, self.channel)
-        return zip(self.places, episodes, strict=True)
+        return zip(self.indices, episodes, strict=True)
 
     def __call__(self) -> list[tuple[int, Episode]]:
         """Return all of :meth:`play`; worker processes run this."""
@@ -49,11 +49,11 @@ class Batch:
 
     def without(self, done: Container[int]) -> "Batch":
         """Return the batch without the places in ``done``."""
-        left = [i for i, place in enumerate(self.places) if place not in done]
+        left = [i for i, index in enumerate(self.indices) if index not in done]
         return dataclasses.replace(
             self,
             seeds=tuple(self.seeds[i] for i in left),
-            places=tuple(self.places[i] for i in left),
+            indices=tuple(self.indices[i] for i in left),
         )
 
 
@@ -132,7 +132,7 @@ def batches(
         for first in range(0, size, SEEDS_PER_BATCH):
             columns = range(first, min(first + SEEDS_PER_BATCH, size))
             batch = _batch(policy, suite, row, columns, channel).without(done)
-            if batch.places:
+            if batch.indices:
                 yield batch
 
 
@@ -150,13 +150,13 @@ def shuffled_batches(
     """
     labels = ("order", policy.name, policy.digest(), suite.digest)
 
-    def lot(place: int) -> bytes:
-        return keyed(secret, *labels, place)
+    def lot(index: int) -> bytes:
+        return keyed(secret, *labels, index)
 
     size = len(suite.seeds)
-    places = sorted((place for place in range(suite.size) if place not in done), key=lot)
-    for place in places:
-        yield _batch(policy, suite, place // size, (place % size,), channel)
+    indices = sorted((index for index in range(suite.size) if index not in done), key=lot)
+    for index in indices:
+        yield _batch(policy, suite, index // size, (index % size,), channel)
 
 
 def _batch(
@@ -171,7 +171,7 @@ def _batch(
         policy=policy,
         scenario=suite.scenarios[row],
         seeds=tuple(suite.seeds[column] for column in columns),
-        places=tuple(row * len(suite.seeds) + column for column in columns),
+        indices=tuple(row * len(suite.seeds) + column for column in columns),
         channel=channel,
     )
 
@@ -233,11 +233,11 @@ def _alone(batches: Iterable[Batch], faults: Faults) -> Iterator[tuple[int, Epis
         for batch in batches:
             done: set[int] = set()
             attempt = 1
-            while len(done) < len(batch.places):
+            while len(done) < len(batch.indices):
                 try:
-                    for place, episode in batch.without(done).play():
-                        done.add(place)
-                        yield place, episode
+                    for index, episode in batch.without(done).play():
+                        done.add(index)
+                        yield index, episode
                 except EvaluatorFault as error:
                     faults.add(attempt, error)
                     attempt += 1

@@ -44,8 +44,8 @@ class Journal(EpisodeFile):
             )
         if resume and head is not None:
             _compare(self.path, head, run)
-            for (place, content), after in found:
-                self.done[place] = self.shelved(episode_of(content), end)
+            for (index, content), after in found:
+                self.done[index] = self.shelved(episode_of(content), end)
                 end = after
             os.truncate(self.handle, end)
             return

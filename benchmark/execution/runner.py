@@ -62,7 +62,7 @@ def run_suite(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
     done: Mapping[int, Episode] | None = None,
-    keep: Callable[[int, Episode], None] = lambda place, episode: None,
+    keep: Callable[[int, Episode], None] = lambda index, episode: None,
     shelf: Shelf | None = None,
     secret: bytes | None = None,
     channel: Channel | None = None,
@@ -120,9 +120,9 @@ def run_suite(
         wanted = shuffled_batches(policy, suite, secret, found, channel)
     interrupted = False
     try:
-        for place, episode in run_batches(wanted, executor, faults):
-            found[place] = shelf.keep(place, episode)
-            keep(place, found[place])
+        for index, episode in run_batches(wanted, executor, faults):
+            found[index] = shelf.keep(index, episode)
+            keep(index, found[index])
             progress(1)
     except KeyboardInterrupt:
         interrupted = True
@@ -130,7 +130,7 @@ def run_suite(
         policy=policy.name,
         policy_digest=policy.digest(),
         suite=suite,
-        episodes=tuple(found[place] for place in sorted(found)),
+        episodes=tuple(found[index] for index in sorted(found)),
         isolation=policy.isolation,
         faults=faults.count,
         channel=channel,

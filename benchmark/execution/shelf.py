@@ -29,7 +29,7 @@ IN_FILE: Final = ("trace", "step_times", "log")
 class Shelf(Protocol):
     """A place for the finished episodes of a run."""
 
-    def keep(self, place: int, episode: Episode) -> Episode:
+    def keep(self, index: int, episode: Episode) -> Episode:
         """Keep an episode by its place in the suite; return it as memory holds it."""
         ...
 
@@ -58,7 +58,7 @@ class PackedScores(Mapping[str, float]):
 
 @functools.lru_cache
 def _places(names: tuple[str, ...]) -> dict[str, int]:
-    return {name: place for place, name in enumerate(names)}
+    return {name: index for index, name in enumerate(names)}
 
 
 class Shelved(Episode):
@@ -107,7 +107,7 @@ class EpisodeFile:
         weakref.finalize(self, self.file.close)
         self._reading = threading.Lock()
 
-    def keep(self, place: int, episode: Episode) -> Episode:
+    def keep(self, index: int, episode: Episode) -> Episode:
         """Append an episode; once this returns, it outlives this process.
 
         Raises
@@ -117,7 +117,7 @@ class EpisodeFile:
         """
         try:
             offset = os.lseek(self.handle, 0, os.SEEK_END)
-            append_record(self.handle, [place, record_of(episode)])
+            append_record(self.handle, [index, record_of(episode)])
         except OSError as error:
             raise unwritable(self.path, error) from error
         return self.shelved(episode, offset)
@@ -160,7 +160,7 @@ class Spool:
         self._kept = 0
         self._file: EpisodeFile | None = None
 
-    def keep(self, place: int, episode: Episode) -> Episode:
+    def keep(self, index: int, episode: Episode) -> Episode:
         """Keep an episode, the first :data:`IN_MEMORY` whole in memory.
 
         Raises
@@ -173,7 +173,7 @@ class Spool:
             return episode
         if self._file is None:
             self._file = _unnamed_file()
-        return self._file.keep(place, episode)
+        return self._file.keep(index, episode)
 
 
 def _unnamed_file() -> EpisodeFile:

@@ -120,18 +120,18 @@ def set_digest(plan: list[SetLift]) -> str:
     return sha.hexdigest()[:16]
 
 
-def _turn(place: int, motions: tuple[Recording, ...]) -> int:
+def _turn(index: int, motions: tuple[Recording, ...]) -> int:
     """Return the number by which agents take turns; each round begins with the next one.
 
     If they simply alternated, each behaviour or recording would always meet the same of two agents.
     """
-    return sum(divmod(place, len(motions) or len(BEHAVIOURS)))
+    return sum(divmod(index, len(motions) or len(BEHAVIOURS)))
 
 
 def _scenario(seed: int, human: bool, motions: tuple[Recording, ...]) -> Scenario:
-    place, subject = seed - FIRST_SEED, f"draw-{seed}"
+    index, subject = seed - FIRST_SEED, f"draw-{seed}"
     if motions:
-        motion = motions[place % len(motions)]
+        motion = motions[index % len(motions)]
         return Scenario(
             behaviour=RECORDED,
             human=Recorded(recording=motion),
@@ -139,7 +139,7 @@ def _scenario(seed: int, human: bool, motions: tuple[Recording, ...]) -> Scenari
             subject=make_subject(subject),
             task=LEVEL,
         )
-    behaviour = BEHAVIOURS[place % len(BEHAVIOURS)]
+    behaviour = BEHAVIOURS[index % len(BEHAVIOURS)]
     return make_scenario(behaviour, subject, partner="human" if human else "nao")
 
 

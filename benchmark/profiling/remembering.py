@@ -65,7 +65,7 @@ def bits_of_time(policy: SandboxedPolicy, lifts: int = LIFTS) -> float:
     ):
         Path(folder, "policy.py").write_text(_OBSERVER)
         observer = dataclasses.replace(
-            policy, place="policy:Observer", parameters="", folder=Path(folder)
+            policy, origin="policy:Observer", parameters="", folder=Path(folder)
         )
         for _ in range(lifts + 2):
             with observer.agent() as agent:

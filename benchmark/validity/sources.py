@@ -71,7 +71,7 @@ def sources_of(paths: Sequence[Path]) -> tuple[Source, ...]:
     ]
     copy = first_copy([recording for _, recording in recorded])
     if copy is not None:
-        (one, lift), (other, again) = (recorded[place] for place in copy)
+        (one, lift), (other, again) = (recorded[index] for index in copy)
         raise InputError(
             f"{other} has the lift {lift.name!r:.80} of {one}, as {again.name!r:.80}: a lift can "
             "confirm a suite once; leave one of them out"

@@ -30,14 +30,14 @@ RULE: Final = (
 class Deviation:
     """An episode whose actions differed when it was played again."""
 
-    place: int
+    index: int
     """The place of the episode in the suite, counted from 0."""
     step: int
     """The first step whose action differs, or that only one of the two episodes has."""
 
     def describe(self, run: Run) -> str:
         """Return the finding in a line. It names the episode: do not use it for hidden ones."""
-        episode = run.episodes[self.place]
+        episode = run.episodes[self.index]
         where = f"{episode.behaviour}/{episode.subject} seed {episode.seed}"
         return f"played again, {where} differs from step {self.step} on: {RULE}"
 
@@ -49,7 +49,7 @@ def audit(
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
-    keep: Callable[[int, Episode], None] = lambda place, episode: None,
+    keep: Callable[[int, Episode], None] = lambda index, episode: None,
 ) -> Deviation | None:
     """Play some of a run's episodes again, in another order; all actions must have equal bits.
 
@@ -77,18 +77,18 @@ def audit(
     EvaluatorFault
         If the machine failed; see :func:`.run_batches`.
     """
-    places = sampled(run, secret)
-    again = _again(policy, run, places, executor, keep, progress)
-    for place in sorted(places):
-        first, second = run.episodes[place], again[place]
+    indices = sampled(run, secret)
+    again = _again(policy, run, indices, executor, keep, progress)
+    for index in sorted(indices):
+        first, second = run.episodes[index], again[index]
         step = first_differing_step(first, second)
         if step is None:
             continue
         if second.failure is not None:
-            third = _again(policy, run, [place], executor, keep)[place]
+            third = _again(policy, run, [index], executor, keep)[index]
             if first_differing_step(first, third) is None:
                 continue  # The second episode ran out of time because the machine was busy.
-        return Deviation(place=place, step=step)
+        return Deviation(index=index, step=step)
     return None
 
 
@@ -101,11 +101,11 @@ def sampled(run: Run, secret: bytes) -> list[int]:
     """Return the places of the episodes to play again, in the order of playing."""
     labels = ("audit", run.policy_digest, run.suite.digest)
 
-    def lot(place: int) -> bytes:
-        return keyed(secret, *labels, place)
+    def lot(index: int) -> bytes:
+        return keyed(secret, *labels, index)
 
-    places = sorted(range(len(run.episodes)), key=lot)
-    return places[: audited(len(places))]
+    indices = sorted(range(len(run.episodes)), key=lot)
+    return indices[: audited(len(indices))]
 
 
 def first_differing_step(episode: Episode, again: Episode) -> int | None:
@@ -125,7 +125,7 @@ def first_differing_step(episode: Episode, again: Episode) -> int | None:
 def _again(
     policy: AgentSpec,
     run: Run,
-    places: Sequence[int],
+    indices: Sequence[int],
     executor: Executor | None,
     keep: Callable[[int, Episode], None],
     progress: Callable[[int], None] = lambda episodes: None,
@@ -135,14 +135,14 @@ def _again(
     wanted = [
         Batch(
             policy=there,
-            scenario=suite.scenarios[place // len(suite.seeds)],
-            seeds=(suite.seeds[place % len(suite.seeds)],),
-            places=(place,),
+            scenario=suite.scenarios[index // len(suite.seeds)],
+            seeds=(suite.seeds[index % len(suite.seeds)],),
+            indices=(index,),
         )
-        for place in places
+        for index in indices
     ]
-    for place, episode in run_batches(wanted, executor, Faults()):
-        found[place] = episode
-        keep(place, episode)
+    for index, episode in run_batches(wanted, executor, Faults()):
+        found[index] = episode
+        keep(index, episode)
         progress(1)
     return found

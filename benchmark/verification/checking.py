@@ -189,7 +189,7 @@ def _determinism(fresh: AgentSpec, run: Run) -> Check:
     """Audit the lifts of the score."""
     finding = audit(fresh, run, os.urandom(32))
     if finding is not None:
-        printed = run.episodes[finding.place].log
+        printed = run.episodes[finding.index].log
         return Check(name="determinism", ok=False, message=finding.describe(run), printed=printed)
     count = audited(len(run.episodes))
     message = f"{count} of the lifts again, started afresh in another order: equal to the bit"

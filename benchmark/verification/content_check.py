@@ -86,13 +86,13 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
         for scene in suite.scenarios
         for seed in suite.seeds
     ]
-    for row, (place, episode) in enumerate(zip(bundle.places, bundle.episodes, strict=True), 1):
+    for row, (index, episode) in enumerate(zip(bundle.indices, bundle.episodes, strict=True), 1):
         found = episode_name(episode)
-        if found != names[place]:
+        if found != names[index]:
             message = f"row {row} is {found} instead"
-            yield Finding(file=EPISODES, episode=names[place], message=message)
+            yield Finding(file=EPISODES, episode=names[index], message=message)
             break
-    missing = sorted({*range(suite.size)} - {*bundle.places})
+    missing = sorted({*range(suite.size)} - {*bundle.indices})
     if missing:
         message = (
             f"missing, one of {len(missing)} of {suite.size} episodes: part of a suite has no "

@@ -30,7 +30,7 @@ from colift.benchmark.verification.verdict import Finding
 class Checked:
     """The result of an episode's replay."""
 
-    place: int
+    index: int
     """The place of the episode in the suite."""
     scores: Scores | None = None
     """The scores that follow from the actions; None if the actions are not those of an episode."""
@@ -48,7 +48,7 @@ class EpisodeCheck:
 
     scenario: Scenario
     seeds: tuple[int, ...]
-    places: tuple[int, ...]
+    indices: tuple[int, ...]
     """The place of each episode in the suite."""
     episodes: tuple[Episode, ...]
     """The claimed episodes."""
@@ -64,7 +64,7 @@ class EpisodeCheck:
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
         with played_lift(self.scenario) as lift:
-            for claim in zip(self.places, self.seeds, self.episodes, strict=True):
+            for claim in zip(self.indices, self.seeds, self.episodes, strict=True):
                 with blaming_plugins(self.scenario, claim[1]):
                     checked = _check(lift, *claim, self.channel, same_platform=self.same_platform)
                 yield checked
@@ -72,7 +72,7 @@ class EpisodeCheck:
 
 def _check(
     lift: Lift,
-    place: int,
+    index: int,
     seed: int,
     claim: Episode,
     channel: Channel | None,
@@ -88,14 +88,14 @@ def _check(
     fault = fault or channel_fault(channel, lift.scenario, seed, logged)
     if fault is not None:
         step, message = fault
-        return Checked(place=place, finding=finding(message, step=step))
+        return Checked(index=index, finding=finding(message, step=step))
     try:
         found = replay(lift, seed, logged.human_action, logged.action, claim.failure)
     except ReplayError as error:
         step, message = _first(logged, error, same_platform=same_platform)
-        return Checked(place=place, finding=finding(message, step=step))
+        return Checked(index=index, finding=finding(message, step=step))
     except InputError as error:
-        return Checked(place=place, finding=finding(str(error), file=MANIFEST))
+        return Checked(index=index, finding=finding(str(error), file=MANIFEST))
     difference = first_difference(logged, found)
     bit_equal, scores = difference is None, found.scores
     if not (bit_equal or same_platform):
@@ -111,7 +111,7 @@ def _check(
         message = f"failure says {claim.failure!r}, the simulation gives {found.failure!r}"
         wrong = finding(message, file=EPISODES)
     return Checked(
-        place=place, scores=scores, failure=found.failure, bit_equal=bit_equal, finding=wrong
+        index=index, scores=scores, failure=found.failure, bit_equal=bit_equal, finding=wrong
     )
 
 
@@ -156,21 +156,21 @@ def simulate(
     for part in _parts(episode_checks(bundle, suite, same_platform), executor):
         found += part
         progress(len(part))
-    return sorted(found, key=lambda checked: checked.place)
+    return sorted(found, key=lambda checked: checked.index)
 
 
 def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
     """Return the checks, divided as :func:`.batches.batches` divides a run."""
     seeds = len(suite.seeds)
     members: dict[tuple[int, int], list[int]] = {}
-    for i, place in enumerate(bundle.places):
-        row, column = divmod(place, seeds)
+    for i, index in enumerate(bundle.indices):
+        row, column = divmod(index, seeds)
         members.setdefault((row, column // SEEDS_PER_BATCH), []).append(i)
     return [
         EpisodeCheck(
             scenario=suite.scenarios[row],
-            seeds=tuple(suite.seeds[bundle.places[i] % seeds] for i in some),
-            places=tuple(bundle.places[i] for i in some),
+            seeds=tuple(suite.seeds[bundle.indices[i] % seeds] for i in some),
+            indices=tuple(bundle.indices[i] for i in some),
             episodes=tuple(bundle.episodes[i] for i in some),
             same_platform=same_platform,
             channel=bundle.recipe.channel,

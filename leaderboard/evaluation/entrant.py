@@ -72,7 +72,7 @@ def builtin_entrant(name: str, level: str = BUBBLEWRAP) -> Entrant:
     source = PolicySpec(text=name).digest()
     policy = SandboxedPolicy(
         name=name,
-        place=entries[name].value,
+        origin=entries[name].value,
         source_digest=source,
         isolation=level,
     )

@@ -38,14 +38,14 @@ def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
     for behaviour, rows in by_behaviour.items():
         ordered = sorted(rows, key=lambda row: (episodes[row].scores["rmse_mm"], row))
         last = len(ordered) - 1
-        places: dict[Which, int] = {"best": 0, "median": last // 2, "worst": last}
+        indices: dict[Which, int] = {"best": 0, "median": last // 2, "worst": last}
         if last == 1:
-            del places["median"]
+            del indices["median"]
         if last == 0:
-            places = {"median": 0}
+            indices = {"median": 0}
         found += [
-            ReplayChoice(behaviour=behaviour, which=which, row=ordered[place])
-            for which, place in places.items()
+            ReplayChoice(behaviour=behaviour, which=which, row=ordered[index])
+            for which, index in indices.items()
         ]
     return tuple(found)
 
@@ -73,15 +73,15 @@ def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
     ghosts: dict[int, Ghost] = {}
     found = []
     for choice in choose_replays(bundle.episodes):
-        place, episode = bundle.places[choice.row], bundle.episodes[choice.row]
-        scenario = suite.scenarios[place // len(suite.seeds)]
-        if place not in ghosts:
-            ghosts[place] = play_ghost(scenario, episode.seed)
+        index, episode = bundle.indices[choice.row], bundle.episodes[choice.row]
+        scenario = suite.scenarios[index // len(suite.seeds)]
+        if index not in ghosts:
+            ghosts[index] = play_ghost(scenario, episode.seed)
         found.append(
             replay_content(
                 episode,
                 scenario,
-                ghosts[place],
+                ghosts[index],
                 policy=policy,
                 suite=suite.name,
                 suite_digest=suite.digest,

@@ -83,16 +83,18 @@ def lines_of(
         Maximum number of lines.
     """
     words = asked.search.lower().split()
-    places = [
-        place
-        for place, each in enumerate(table.ranking)
+    positions = [
+        position
+        for position, each in enumerate(table.ranking)
         if not words or all(word in search_text(each.row) for word in words)
     ]
     if asked.sort != "rank":
-        places = _sorted(board, table, places, asked, behaviours)
-    first = min(asked.first, max(0, len(places) - 1))
-    rows = tuple(_line(board, table, place, asked) for place in places[first : first + most])
-    return Lines(rows=rows, first=first, count=len(places))
+        positions = _sorted(board, table, positions, asked, behaviours)
+    first = min(asked.first, max(0, len(positions) - 1))
+    rows = tuple(
+        _line(board, table, position, asked) for position in positions[first : first + most]
+    )
+    return Lines(rows=rows, first=first, count=len(positions))
 
 
 def search_text(row: BoardRow) -> str:
@@ -107,13 +109,13 @@ def strata_of(board: Board, row: BoardRow) -> tuple[StratumScore, ...]:
     return () if bundle is None else stratum_scores(bundle)
 
 
-def _line(board: Board, table: Table, place: int, asked: Asked) -> RankedLine:
-    each = table.ranking[place]
+def _line(board: Board, table: Table, position: int, asked: Asked) -> RankedLine:
+    each = table.ranking[position]
     strata = strata_of(board, each.row)
-    before = table.ranking[place - 1] if place else None
+    before = table.ranking[position - 1] if position else None
     return RankedLine(
         standing=each,
-        index=place,
+        index=position,
         strata=strata,
         scores=_scores(each.row, strata, asked.part),
         shared=1 if each.pending else table.sizes[each.group],
@@ -151,13 +153,13 @@ _OF_ROW: Final[Mapping[str, Callable[[RankedRow], Key]]] = {
 
 
 def _sorted(
-    board: Board, table: Table, places: Sequence[int], asked: Asked, behaviours: Sequence[str]
+    board: Board, table: Table, positions: Sequence[int], asked: Asked, behaviours: Sequence[str]
 ) -> list[int]:
     """Return places in the order that was asked for; in that of the ranks if it is unknown."""
     name = asked.column
 
-    def key(place: int) -> Key:
-        each = table.ranking[place]
+    def key(position: int) -> Key:
+        each = table.ranking[position]
         if name in _OF_ROW:
             return _OF_ROW[name](each)
         if name in columns:
@@ -175,15 +177,15 @@ def _sorted(
                 for metric in board_metrics(each.row.suite)
                 if metric.name == name
             ),
-            float(place),
+            float(position),
         )
 
     columns = {f"b{i}": behaviour for i, behaviour in enumerate(behaviours)}
-    keys = {place: key(place) for place in places}
-    there = [place for place in places if not _missing(keys[place])]
+    keys = {position: key(position) for position in positions}
+    there = [position for position in positions if not _missing(keys[position])]
     # Two passes, so that equal ones stay in the order of the ranks either way.
-    there.sort(key=lambda place: keys[place], reverse=asked.down)  # type: ignore[arg-type,return-value]
-    return [*there, *(place for place in places if _missing(keys[place]))]
+    there.sort(key=lambda position: keys[position], reverse=asked.down)  # type: ignore[arg-type,return-value]
+    return [*there, *(position for position in positions if _missing(keys[position]))]
 
 
 def _missing(key: Key) -> bool:

@@ -167,7 +167,7 @@ class _Server:
             return ["failed", reason]
 
     def _make(self) -> list[Any]:
-        policy, parameters = _load(self._policy.place), self._policy.parameters
+        policy, parameters = _load(self._policy.origin), self._policy.parameters
         values = read_values(policy, parameters) if parameters else {}
         self._agent = make_with(policy, values) if values else policy()
         self._explains = isinstance(self._agent, Explaining)
@@ -191,11 +191,11 @@ class _Server:
         return ["action", action, names, [float(value) for value in internals.values()]]
 
 
-def _load(place: str) -> type[Agent]:
+def _load(origin: str) -> type[Agent]:
     """Return the policy's class; modules beside its file can be imported, if it is not colift's."""
-    if not place.startswith(OURS):
+    if not origin.startswith(OURS):
         sys.path.insert(0, str(Path.cwd()))
-    return PolicySpec(text=place).load()
+    return PolicySpec(text=origin).load()
 
 
 def _remember_sources() -> None:

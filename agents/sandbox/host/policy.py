@@ -34,7 +34,7 @@ class SandboxedPolicy:
 
     name: str
     """The policy's name, for tables."""
-    place: str
+    origin: str
     """Place of its class: ``module:Class``, or ``file.py:Class`` with a path that is absolute or
     relative to the folder."""
     parameters: str = ""
@@ -60,7 +60,7 @@ class SandboxedPolicy:
     @property
     def module(self) -> str:
         """The installed module that the policy is in; empty if it has a folder."""
-        return "" if self.folder else self.place.rpartition(":")[0]
+        return "" if self.folder else self.origin.rpartition(":")[0]
 
     def moved(self, folder: Path) -> "SandboxedPolicy":
         """Return the same policy with its submission in another folder."""
@@ -105,14 +105,14 @@ class SandboxedPolicy:
 
     def _assignment(self) -> tuple[Path | None, Assignment]:
         """Return the file or folder that the policy sees, and the policy to serve."""
-        file, colon, name = self.place.rpartition(":")
-        seen, place = self.folder.resolve() if self.folder else None, self.place
+        file, colon, name = self.origin.rpartition(":")
+        seen, origin = self.folder.resolve() if self.folder else None, self.origin
         if seen is None and colon and file.endswith(".py"):
             seen = Path(file).resolve()
-            place = f"{seen}:{name}"
+            origin = f"{seen}:{name}"
         if seen is not None and (seen == AGENTS.parent or seen in AGENTS.parents):
             raise InputError(f"{seen} holds colift itself: put the policy into a folder of its own")
-        return seen, Assignment(place, self.parameters, self.size)
+        return seen, Assignment(origin, self.parameters, self.size)
 
 
 def _kept(isolation: str, seen: Path | None, limits: Limits) -> Sandbox:

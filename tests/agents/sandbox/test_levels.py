@@ -131,7 +131,7 @@ def test_an_unknown_level_is_refused_with_all_there_are():
 
 def test_without_bubblewrap_the_next_level_is_used(without_bubblewrap):
     assert "bwrap is not installed" in levels.fault("bubblewrap")
-    policy = SandboxedPolicy(name="hold", place="colift.agents.policies.hold:Hold")
+    policy = SandboxedPolicy(name="hold", origin="colift.agents.policies.hold:Hold")
     assert policy.isolation == levels.working_levels()[0] != "bubblewrap"
     with policy.agent() as agent:
         agent.reset(1)
@@ -227,7 +227,7 @@ import os, signal
 from pathlib import Path
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 
-policy = SandboxedPolicy(name="where", place="where.py:Where", folder=Path("."), isolation="limits")
+policy = SandboxedPolicy(name="where", origin="where.py:Where", folder=Path("."), isolation="limits")
 with policy.agent() as agent:
     agent.reset(1)
 print(agent.printed, flush=True)
@@ -267,7 +267,7 @@ class Where:
 
 def test_there_is_a_place_for_temporary_files(tmp_path, level):
     (tmp_path / "where.py").write_text(WRITING)
-    policy = SandboxedPolicy(name="w", place="where.py:Where", folder=tmp_path, isolation=level)
+    policy = SandboxedPolicy(name="w", origin="where.py:Where", folder=tmp_path, isolation=level)
     with policy.agent() as agent:
         agent.reset(1)
     close_sandboxes()
@@ -275,7 +275,7 @@ def test_there_is_a_place_for_temporary_files(tmp_path, level):
 
 def test_a_link_to_a_folder_is_gone_with_its_lift(tmp_path):
     (tmp_path / "where.py").write_text(LINKING)
-    policy = SandboxedPolicy(name="w", place="where.py:Where", folder=tmp_path, isolation="limits")
+    policy = SandboxedPolicy(name="w", origin="where.py:Where", folder=tmp_path, isolation="limits")
     for _ in range(2):
         with policy.agent() as agent:
             agent.reset(1)

@@ -47,7 +47,7 @@ def test_the_sandbox_is_given_the_period_of_the_scenario(tmp_path):
     )
     policy = SandboxedPolicy(
         name="slow",
-        place="slow.py:Slow",
+        origin="slow.py:Slow",
         folder=tmp_path,
         isolation="limits",
         limits=Limits(step_periods=2.0, pace_periods=2.0),

@@ -77,7 +77,7 @@ def in_memory(path):
 def test_a_lift_reads_no_page(tmp_path, marks, each_level):
     (tmp_path / "policy.py").write_text(MARKING)
     policy = SandboxedPolicy(
-        name="p", place="policy:Marking", folder=tmp_path, isolation=each_level
+        name="p", origin="policy:Marking", folder=tmp_path, isolation=each_level
     )
     with policy.agent() as agent:
         agent.reset(1)
@@ -102,7 +102,7 @@ class Mapping:
 def test_what_is_mapped_is_in_memory_before_the_first_lift(tmp_path, marks, each_level):
     (tmp_path / "policy.py").write_text(MAPPING)
     policy = SandboxedPolicy(
-        name="p", place="policy:Mapping", folder=tmp_path, isolation=each_level
+        name="p", origin="policy:Mapping", folder=tmp_path, isolation=each_level
     )
     with policy.agent() as agent:
         agent.reset(1)
@@ -144,7 +144,7 @@ def test_the_memory_that_a_lift_takes_is_not_that_of_files(tmp_path, each_level)
     (tmp_path / "policy.py").write_text(FILLING)
     limits = replace(PATIENT, memory=300 * MIB)
     policy = SandboxedPolicy(
-        name="p", place="policy:Filling", folder=tmp_path, isolation=each_level, limits=limits
+        name="p", origin="policy:Filling", folder=tmp_path, isolation=each_level, limits=limits
     )
     with policy.agent() as agent:
         agent.reset(1)

@@ -31,7 +31,7 @@ def test_a_submission_can_begin_from_every_policy_of_colift(tmp_path):
         "    importlib.import_module(f'{package.__name__}.{module.name}')\n"
         "from colift.agents.policies.copy import Copy as All\n"
     )
-    policy = SandboxedPolicy(name="all", place="all.py:All", folder=tmp_path, isolation="limits")
+    policy = SandboxedPolicy(name="all", origin="all.py:All", folder=tmp_path, isolation="limits")
     (episode,) = play(policy, make_scenario("smooth", "S1"), (0,))
     close_sandboxes()
     assert episode.failure is None

@@ -154,7 +154,7 @@ def test_an_incomplete_run_gives_a_bundle_that_says_so(run, tmp_path):
     write_bundle(tmp_path / "part", part, results(part, {}).plain())
     bundle = read_bundle(tmp_path / "part")
     assert bundle.results["complete"] is False
-    assert bundle.places == (1, 7)
+    assert bundle.indices == (1, 7)
 
 
 def test_a_failed_write_leaves_the_older_bundle(run, bundle, monkeypatch):

@@ -31,7 +31,7 @@ distributed = pytest.importorskip("distributed", reason="needs Dask: uv sync --a
 SUITE = make_suite("quick-v1").with_seeds(0, 1)
 LONGER = make_suite("quick-v1").with_seeds(0, 3)
 COPY = PolicySpec(text="copy")
-SANDBOXED = SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy")
+SANDBOXED = SandboxedPolicy(name="copy", origin="colift.agents.policies.copy:Copy")
 
 DYING = """
 import os

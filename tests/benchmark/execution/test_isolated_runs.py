@@ -98,7 +98,7 @@ def test_a_run_is_bit_identical_in_every_sandbox(
     policy = read_submission(folder).sandboxed(each_level)
     if form == "file":
         policy = SandboxedPolicy(
-            name="mixed", place=f"{folder}/policy.py:Policy", isolation=each_level
+            name="mixed", origin=f"{folder}/policy.py:Policy", isolation=each_level
         )
     run = run_suite(policy, SUITE, executor=two_workers if jobs == 2 else None)
     assert run.isolation == each_level

@@ -75,7 +75,7 @@ folder = Path(sys.argv[1])
 specs = {"none": PolicySpec(text=f"{folder / 'policy.py'}:Policy")}
 for level in sys.argv[2:]:
     place = f"{folder}/policy.py:Policy"
-    specs[level] = SandboxedPolicy(name="mixed", place=place, isolation=level)
+    specs[level] = SandboxedPolicy(name="mixed", origin=place, isolation=level)
 found = {}
 for name, spec in specs.items():
     run = run_suite(spec, suite)

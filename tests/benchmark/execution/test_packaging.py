@@ -112,7 +112,9 @@ def test_a_trusted_submission_travels_too(submission, tmp_path):
 
 
 def test_a_sandboxed_module_is_found_over_there(tmp_path):
-    spec = SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy", source_digest="d")
+    spec = SandboxedPolicy(
+        name="copy", origin="colift.agents.policies.copy:Copy", source_digest="d"
+    )
     assert elsewhere(packaged(spec), tmp_path) == here(spec)
 
 
@@ -122,7 +124,7 @@ def test_what_does_not_exist_is_not_packaged():
 
 
 def sandboxed_copy():
-    return SandboxedPolicy(name="copy", place="colift.agents.policies.copy:Copy")
+    return SandboxedPolicy(name="copy", origin="colift.agents.policies.copy:Copy")
 
 
 @pytest.mark.parametrize("spec", [PolicySpec(text="copy"), sandboxed_copy()])

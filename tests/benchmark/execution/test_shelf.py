@@ -42,7 +42,7 @@ class Answer(Future):
                 place,
                 dataclasses.replace(pickle.loads(self.executor.episode), seed=seed, **whose),
             )
-            for place, seed in zip(self.batch.places, self.batch.seeds, strict=True)
+            for place, seed in zip(self.batch.indices, self.batch.seeds, strict=True)
         ]
 
 

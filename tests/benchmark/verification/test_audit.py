@@ -88,8 +88,8 @@ def test_a_policy_left_to_chance_is_told_with_episode_and_step():
     policy = Made(twist=lambda: 1e-9 * next(counter))
     run = run_suite(policy, QUICK)
     finding = audit(policy, run, SECRET)
-    assert (finding.place, finding.step) == (min(sampled(run, SECRET)), 11)
-    episode = run.episodes[finding.place]
+    assert (finding.index, finding.step) == (min(sampled(run, SECRET)), 11)
+    episode = run.episodes[finding.index]
     for told in (episode.behaviour, episode.subject, f"seed {episode.seed}", "step 11", RULE):
         assert told in finding.describe(run)
 
@@ -109,7 +109,7 @@ def test_the_smallest_change_of_one_action_in_one_audited_episode_is_found(run):
     changed = dataclasses.replace(episode, trace=dataclasses.replace(episode.trace, action=action))
     episodes = [changed if i == place else each for i, each in enumerate(run.episodes)]
     finding = audit(Made(), dataclasses.replace(run, episodes=tuple(episodes)), SECRET)
-    assert (finding.place, finding.step) == (place, 7)
+    assert (finding.index, finding.step) == (place, 7)
 
 
 def test_an_episode_that_ends_earlier_differs_from_there_on(run):

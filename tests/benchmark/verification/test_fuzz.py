@@ -50,7 +50,7 @@ def claims(bundle):
         )
         for each in bundle.episodes
     ]
-    return content, bundle.places, bundle.run().suite.digest, episodes
+    return content, bundle.indices, bundle.run().suite.digest, episodes
 
 
 def assert_refused_or_harmless(folder, files, changed, *, mended):

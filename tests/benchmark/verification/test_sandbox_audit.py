@@ -35,7 +35,7 @@ KEEPERS = {
 def test_what_does_not_follow_from_the_lift_alone_is_found(tmp_path, keeper):
     source, found = KEEPERS[keeper]
     (tmp_path / "policy.py").write_text(source + ACT)
-    policy = SandboxedPolicy(name="p", place="policy:Policy", folder=tmp_path)
+    policy = SandboxedPolicy(name="p", origin="policy:Policy", folder=tmp_path)
     run = run_suite(policy, make_suite("quick-v1").with_seeds(0, 1))
     assert [episode.failure for episode in run.episodes] == 4 * [None]
     finding = audit(dataclasses.replace(policy, instance=AUDIT), run, SECRET)

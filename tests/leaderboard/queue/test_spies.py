@@ -111,7 +111,7 @@ def loaded(folder, code):
     folder.mkdir(parents=True)
     (folder / "policy.py").write_text(code)
     policy = SandboxedPolicy(
-        name="p", place="policy.py:Policy", folder=folder, isolation=strongest()
+        name="p", origin="policy.py:Policy", folder=folder, isolation=strongest()
     )
     with policy.agent() as agent:
         agent.reset(0)
