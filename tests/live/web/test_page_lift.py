@@ -18,6 +18,9 @@ from .browsing import (
 )
 from .network import Network
 
+HIGHEST = 0.38
+"""The end of the hand's range [m], as in ``hand.js``."""
+
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
 
@@ -87,7 +90,9 @@ def test_keys_alone_are_enough(page, url):
     moved = heights(hand)
     steps = [b - a for a, b in itertools.pairwise(moved)]
     assert max(steps) <= 0.00151  # 0.15 m/s, 100 times a second
-    jerks = [abs(b - a) for a, b in itertools.pairwise(steps)]
+    # A page that shows the table late lets the key be held until the hand is at the end of its range.
+    free = itertools.takewhile(lambda height: height < HIGHEST - 0.0015, moved)
+    jerks = [abs(b - a) for a, b in itertools.pairwise(b - a for a, b in itertools.pairwise(free))]
     assert max(jerks) <= 1.5e-4 + 1e-7
     assert steps[-1] == 0
     page.keyboard.press("Space")
