@@ -90,7 +90,7 @@ def test_keys_alone_are_enough(page, url):
     moved = heights(hand)
     steps = [b - a for a, b in itertools.pairwise(moved)]
     assert max(steps) <= 0.00151  # 0.15 m/s, 100 times a second
-    # A page that shows the table late lets the key be held until the hand is at the end of its range.
+    # On a slow page, the key is held until the hand is at the end of its range.
     free = itertools.takewhile(lambda height: height < HIGHEST - 0.0015, moved)
     jerks = [abs(b - a) for a, b in itertools.pairwise(b - a for a, b in itertools.pairwise(free))]
     assert max(jerks) <= 1.5e-4 + 1e-7
