@@ -40,4 +40,4 @@ def reveal(name: NewSeason, why: Why = "the season is over", board: ExistingBoar
     """Publish the secret of a finished season: anyone can then play its hidden lifts."""
     with opened_board(board) as opened:
         opened.reveal(name, LOCAL, why)
-        print(f"the secret of season {name}: {place.season_info(name).revealed}")
+        print(f"the secret of season {name}: {opened.season_info(name).revealed}")

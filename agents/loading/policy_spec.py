@@ -48,7 +48,7 @@ class PolicySpec(InProcess):
         source, colon, name = origin.rpartition(":")
         if not colon:
             if Path(origin).suffix == ".py" or "/" in origin:
-                raise InputError(f"{place} names no class; give {with_class(Path(place))}")
+                raise InputError(f"{origin} names no class; give {with_class(Path(origin))}")
             return _checked(lookup(POLICIES, origin), origin)
         module = _from_file(Path(source)) if source.endswith(".py") else _from_module(source)
         if not hasattr(module, name):
@@ -132,7 +132,7 @@ class PolicySpec(InProcess):
         try:
             return read_values(policy, parameters) if comma else {}
         except InputError as error:
-            raise InputError(f"policy {place}: {error}") from error
+            raise InputError(f"policy {origin}: {error}") from error
 
 
 @dataclass(frozen=True, kw_only=True)

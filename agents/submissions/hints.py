@@ -29,20 +29,20 @@ def refuse_other_file(origin: str) -> None:
     source = path.with_name(f"{path.name}.py") if path.name else path
     if path.is_file() and path.suffix == ONNX:
         raise InputError(
-            f"{place} is a network, not yet a submission",
+            f"{origin} is a network, not yet a submission",
             remedy=Remedy.SUBMISSION_FROM_FILE,
             target=origin,
         )
     if path.is_file() and path.suffix != ".py":
         if (path.parent / MANIFEST).is_file():
-            raise InputError(f"{place} is a file of a submission; give its folder, {path.parent}")
+            raise InputError(f"{origin} is a file of a submission; give its folder, {path.parent}")
         raise InputError(
-            f"{place} is no policy: give a name, file.py:Class or a submission's folder",
+            f"{origin} is no policy: give a name, file.py:Class or a submission's folder",
             remedy=Remedy.LIST,
         )
     if not path.is_dir() and source.is_file():
         form = with_class(source)
-        raise InputError(f"unknown policy {place!r}; for the file {source} give {form}")
+        raise InputError(f"unknown policy {origin!r}; for the file {source} give {form}")
 
 
 def import_hint(text: str, message: str) -> str:
@@ -66,7 +66,7 @@ def import_hint(text: str, message: str) -> str:
     if files:
         return (
             f"a policy of one file does not see {files[0].name} beside it: 'colift new DIR --from "
-            f"{place}' makes a submission, into which {files[0].name} can be copied"
+            f"{origin}' makes a submission, into which {files[0].name} can be copied"
         )
     return (
         f"boards provide {', '.join(PACKAGES)}; a network of another library can be submitted as "

@@ -140,7 +140,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     lifts = len(recipe.scenarios) * len(recipe.seeds)
     traces, indices = parse_traces(parse_arrays(files[TRACES], TRACES, LARGEST_LIFT * lifts))
     if indices[-1] >= lifts:
-        raise InputError(f"{TRACES}: the suite has no place {places[-1]}")
+        raise InputError(f"{TRACES}: the suite has no place {indices[-1]}")
     logs = _logs(files[LOGS], len(traces)) if LOGS in files else [""] * len(traces)
     results = _results(files[RESULTS], acted=any(len(trace.action) for trace in traces))
     outdated = results["scoring"] != SCORING
