@@ -66,8 +66,8 @@ def play(
     'colift verify' verifies the saved lifts, 'colift run POLICY --recordings' plays them again.
     """
     try:
-        from colift.live.web.keeper import PlayConfig
-        from colift.live.web.processes import keep_serving
+        from colift.play.web.keeper import PlayConfig
+        from colift.play.web.processes import keep_serving
     except ModuleNotFoundError as error:
         raise InputError(
             f"{error.name} is not installed; lifting in a browser needs: {how_to_install('board')}"

@@ -125,9 +125,9 @@ def serve_board(
 def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
     """Let visitors of a board lift with all policies; return the protocol of their sockets."""
     from colift.leaderboard.service.dependencies import PLAY
-    from colift.live.web.app import create_play, mount_play
-    from colift.live.web.keeper import PlayConfig
-    from colift.live.web.processes import SmallBuffers
+    from colift.play.web.app import create_play, mount_play
+    from colift.play.web.keeper import PlayConfig
+    from colift.play.web.processes import SmallBuffers
 
     named, lines = partners()
     config = PlayConfig(

@@ -111,7 +111,7 @@ def test_a_glossary_entry_stands_once():
 @pytest.mark.parametrize("page", pages())
 def test_paths_in_the_documentation_exist(page):
     found = re.findall(
-        r"`((?:agents|benchmark|cli|leaderboard|robots|src|tests|examples|docs)/[\w/.-]+)`",
+        r"`((?:agents|base|benchmark|cli|leaderboard|play|robots|src|tests|examples|docs)/[\w/.-]+)`",
         (ROOT / page).read_text(),
     )
     assert [path for path in found if not (ROOT / path).exists()] == []

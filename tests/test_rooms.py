@@ -55,7 +55,7 @@ def test_each_folder_of_the_picture_exists(rooms):
     assert [name for name in rooms if not (ROOT / name).is_dir()] == []
 
 
-@pytest.mark.parametrize("part", ["agents", "benchmark", "leaderboard"])
+@pytest.mark.parametrize("part", ["agents", "base", "benchmark", "leaderboard", "play"])
 def test_each_folder_with_code_is_in_the_picture(part, rooms):
     folders = {path.parent for path in ROOT.glob(f"{part}/*/__init__.py")}
     assert {str(path.relative_to(ROOT)) for path in folders} - rooms.keys() == set()

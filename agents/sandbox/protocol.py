@@ -16,7 +16,10 @@ import msgpack
 from colift.base.errors import InputError
 
 AGENTS: Final = Path(__file__).resolve().parents[1]
-"""The part of colift that the guest sees: ``colift.agents``, without the humans."""
+"""``colift.agents``, of which the guest sees all but the humans."""
+
+SHOWN: Final = (AGENTS.with_name("base"), AGENTS)
+"""The parts of colift that the guest sees, in the order of their imports."""
 
 OURS: Final = "colift.agents."
 """Prefix of the modules of colift's own policies; a submission's folder has no code for them."""

@@ -1,1 +1,1 @@
-"""The tasks that need coordination: their people, senses and policies."""
+"""The tasks that need coordination, for a robot: its senses, what it infers, its policies."""

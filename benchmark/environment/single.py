@@ -41,7 +41,7 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         if unknown:
             known = ", ".join(SETTINGS)
             raise InputError(f"no such setting: {', '.join(sorted(unknown))}; known: {known}")
-        if settings.get("partner") in HUMANS:
+        if settings.get("partner") in [*HUMANS]:
             raise InputError(
                 f"partner must be a robot here, got {settings['partner']!r}: colift.parallel_env "
                 "has lifts of two humans"

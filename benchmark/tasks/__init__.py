@@ -1,1 +1,1 @@
-"""Tasks in which a level table is not enough."""
+"""The tasks: rules, people and scores of each."""

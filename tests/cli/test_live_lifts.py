@@ -7,8 +7,8 @@ import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.validity.sources import sources_of
 
-from ..live.rooms.test_goals import lifted, nobody, rewritten
-from ..live.rooms.test_room import Table
+from ..play.rooms.test_goals import lifted, nobody, rewritten
+from ..play.rooms.test_room import Table
 
 MISSED = "the line was not reached and held (the hand was "
 STILL = f"001-copy does not count: {MISSED}"
@@ -21,7 +21,7 @@ def session(tmp_path_factory):
     table = Table(folder, {"copy": PolicySpec(text="copy")}, cue_seed=3)
     table.take(table.room.join(0))
     with pytest.MonkeyPatch.context() as earlier:
-        earlier.setattr("colift.live.rooms.room.missed_words", lambda goals: None)
+        earlier.setattr("colift.play.rooms.room.missed_words", lambda goals: None)
         still = lifted(table, nobody)
     rewritten(folder / still["folder"], lambda content: content.pop("goals"))
     ends = [lifted(table, kind=kind) for kind in ("pause", "changing_goal")]

@@ -13,7 +13,7 @@ import pytest
 from colift.base.extras import how_to_install
 from colift.benchmark.real_lifts.session_folder import EVENTS
 
-from ..live.web.pages import GRIP, Page, new_session
+from ..play.web.pages import GRIP, Page, new_session
 
 
 def descendants(process):

@@ -15,7 +15,7 @@ from colift.base.extras import how_to_install
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.tokens import Tokens
 
-from ..live.web.pages import Page, new_session
+from ..play.web.pages import Page, new_session
 
 
 def parent(process):

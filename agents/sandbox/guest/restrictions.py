@@ -16,7 +16,7 @@ from colift.agents.sandbox.guest.linux import (
     MS_RDONLY,
     MS_REC,
 )
-from colift.agents.sandbox.protocol import AGENTS, Limits
+from colift.agents.sandbox.protocol import SHOWN, Limits
 
 FRESH: Final = ("/tmp", "/dev/shm")
 """Private directories of an episode with namespaces, empty at first."""
@@ -73,7 +73,7 @@ def enter_root(restrictions: Restrictions) -> int:
         linux.mount("proc", "/proc", "proc", secure)
     processes = os.open("/proc", os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
     links = {path: path.readlink() for path in restrictions.readable if path.is_symlink()}
-    shown = {*restrictions.readable, *map(Path, DEVICES), AGENTS} - links.keys()
+    shown = {*restrictions.readable, *map(Path, DEVICES), *SHOWN} - links.keys()
     handles = {path: os.open(path, os.O_PATH | os.O_CLOEXEC) for path in shown if path.exists()}
     linux.mount("tmpfs", _BASE, "tmpfs", MS_NOSUID, "size=1m,mode=755")
     for place in ("/proc", *FRESH):
@@ -88,8 +88,9 @@ def enter_root(restrictions: Restrictions) -> int:
             Path(f"{_BASE}{path}").symlink_to(links[path])
     for path in restrictions.hidden:
         linux.mount("tmpfs", f"{_BASE}{path}", "tmpfs", MS_NOSUID, "size=1m,mode=755")
-        if path in AGENTS.parents:
-            _show(AGENTS, handles[AGENTS])
+        for part in SHOWN:
+            if path in part.parents:
+                _show(part, handles[part])
     for handle in handles.values():
         os.close(handle)
     linux.make_read_only(_BASE, True)

@@ -36,11 +36,11 @@ from colift.agents.loading.parameters import make_with, read_values
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sandbox.guest.filters import CHANNEL, FORKING, LIFT, install
 from colift.agents.sandbox.protocol import (
-    AGENTS,
     INTERNALS,
     NAME,
     OURS,
     REASON,
+    SHOWN,
     Assignment,
     Channel,
     ClosedError,
@@ -200,7 +200,7 @@ def _load(origin: str) -> type[Agent]:
 
 def _remember_sources() -> None:
     """Read the policy's own files, whose lines tracebacks show when none can be read any more."""
-    installed = (*filter(None, sys.path[1:]), str(AGENTS))
+    installed = (*filter(None, sys.path[1:]), *map(str, SHOWN))
     for module in tuple(sys.modules.values()):
         file = vars(module).get("__file__")
         if isinstance(file, str) and file.endswith(".py") and not file.startswith(installed):

@@ -17,7 +17,7 @@ from typing import Any, Final
 from colift.agents.sandbox.host.control_group import ControlGroup
 from colift.agents.sandbox.host.output import clean
 from colift.agents.sandbox.host.view import View, environment, view
-from colift.agents.sandbox.protocol import AGENTS, MIB, ORDER, REASON, Limits
+from colift.agents.sandbox.protocol import MIB, ORDER, REASON, SHOWN, Limits
 from colift.base.errors import EvaluatorFault
 
 BUBBLEWRAP: Final = "bubblewrap"
@@ -37,19 +37,21 @@ _BOOTSTRAP: Final = """
 import sys
 from importlib.util import module_from_spec, spec_from_file_location
 from types import ModuleType
-agents, handle, *packages = sys.argv[1:]
+base, agents, handle, *packages = sys.argv[1:]
 sys.path += packages
 colift = sys.modules["colift"] = ModuleType("colift")
 colift.__path__ = []
-spec = spec_from_file_location(
-    "colift.agents", agents + "/__init__.py", submodule_search_locations=[agents]
-)
-colift.agents = sys.modules["colift.agents"] = module_from_spec(spec)
-spec.loader.exec_module(colift.agents)
+for name, folder in ("base", base), ("agents", agents):
+    spec = spec_from_file_location(
+        "colift." + name, folder + "/__init__.py", submodule_search_locations=[folder]
+    )
+    part = sys.modules[spec.name] = module_from_spec(spec)
+    setattr(colift, name, part)
+    spec.loader.exec_module(part)
 from colift.agents.sandbox.guest.forkserver import main
 main(int(handle))
 """
-"""Makes a package ``colift`` of ``colift.agents`` alone, whatever else is installed."""
+"""Makes a package ``colift`` of two of its parts alone, whatever else is installed."""
 
 _PRIVILEGES: Final = [
     "SYS_ADMIN",
@@ -206,7 +208,7 @@ def command(isolation: str, visible: View, handle: int, *, superuser: bool) -> l
     """
     packages = [str(each) for each in visible.packages]
     options = ["-s", "-P", "-S", "-u", "-c", _BOOTSTRAP]
-    python = [str(visible.python), *options, str(AGENTS), str(handle), *packages]
+    python = [str(visible.python), *options, *map(str, SHOWN), str(handle), *packages]
     return [*_bubblewrap(visible, superuser), *python] if isolation == BUBBLEWRAP else python
 
 

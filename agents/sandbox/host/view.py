@@ -1,6 +1,6 @@
 """The visible files of a sandboxed policy: a Python with its packages, and the policy's folder.
 
-Of colift only ``colift.agents`` is visible, without the humans: no suite, scenario, plan or seed.
+Of colift only :data:`.SHOWN` is visible, without the humans: no suite, scenario, plan or seed.
 """
 
 import os
@@ -13,7 +13,7 @@ from typing import Final
 
 import msgpack
 import numpy as np
-from colift.agents.sandbox.protocol import AGENTS
+from colift.agents.sandbox.protocol import AGENTS, SHOWN
 
 _SYSTEM: Final = (
     *("/usr/lib", "/usr/lib64", "/usr/lib32", "/lib", "/lib64", "/lib32"),
@@ -32,7 +32,7 @@ class View:
     readable: tuple[Path, ...]
     """Files and directories; an outer one comes before those inside it."""
     hidden: tuple[Path, ...]
-    """Directories inside those that are covered, except :data:`AGENTS` in one of them."""
+    """Directories inside those that are covered, except :data:`.SHOWN` in one of them."""
 
     def visible(self) -> Iterator[Path]:
         """Yield the readable paths without the hidden ones, as few as possible."""
@@ -63,7 +63,7 @@ def view(folder: Path | None) -> View:
     library = Path(sysconfig.get_config_var("LIBDIR") or "", sysconfig.get_config_var("LDLIBRARY"))
     shared = [library.resolve()] if library.is_file() else []
     system = [Path(each) for each in _SYSTEM if Path(each).exists()]
-    own = [AGENTS] + ([folder] if folder else [])
+    own = [*SHOWN, *([folder] if folder else [])]
     sites = [*packages, *(each / "site-packages" for each in standard)]
     hidden = [*(each / "colift" for each in sites), AGENTS / "humans"]
     return View(

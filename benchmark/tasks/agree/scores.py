@@ -6,8 +6,8 @@ from typing import Any, Final
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.tasks.agree import Hurdle
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.tasks.agree.hurdles import Hurdle
 from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
 

@@ -11,15 +11,6 @@ from colift.agents.humans import Plan
 from colift.agents.humans.person import Person
 from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
 from colift.agents.senses import Sense
-from colift.agents.tasks.agree import (
-    Hurdle,
-    HurdlePlan,
-    Negotiates,
-    Obstacle,
-    SecondNegotiator,
-    secret,
-    with_secret,
-)
 from colift.agents.tasks.agree.observation import HURDLE_SENSES
 from colift.base.errors import InputError
 from colift.benchmark.episode import metrics
@@ -28,6 +19,9 @@ from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.agree.hurdles import Hurdle, HurdlePlan
+from colift.benchmark.tasks.agree.person import Negotiates
+from colift.benchmark.tasks.agree.precedence import Obstacle, secret
 from colift.benchmark.tasks.agree.scores import (
     agreement_ms,
     agreement_rmse_mm,
@@ -35,6 +29,7 @@ from colift.benchmark.tasks.agree.scores import (
     missed_mm,
     passing,
 )
+from colift.benchmark.tasks.agree.second import SecondNegotiator, with_secret
 from colift.benchmark.tasks.agree.table import AGREE_METRICS
 from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
 from colift.benchmark.world.table import WEIGHT_SHARE

@@ -11,7 +11,6 @@ from colift.agents.humans import Plan
 from colift.agents.humans.person import Person
 from colift.agents.rules import ArrayFunctions, Drawn, N, View
 from colift.agents.senses import HEIGHT_BOUND, Sense
-from colift.agents.tasks.ball import BallPartner, BallPlan, BallSenses, Steers, with_ball
 from colift.agents.tasks.ball.observation import BALL_SENSES
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
@@ -19,7 +18,10 @@ from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.ball.person import Steers
+from colift.benchmark.tasks.ball.places import BallPlan
 from colift.benchmark.tasks.ball.scores import ball_settling_ms, velocity_peaks
+from colift.benchmark.tasks.ball.second import BallPartner, BallSenses, with_ball
 from colift.benchmark.tasks.ball.table import BALL_METRICS
 from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
 from colift.benchmark.world import Ball

@@ -10,13 +10,15 @@ from colift.agents.agent import Agent
 from colift.agents.humans import Plan
 from colift.agents.humans.person import Person
 from colift.agents.rules import ArrayFunctions, N
-from colift.agents.tasks.intent import Companion, Leads, PosePlan
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tasks.intent.companion import Companion
+from colift.benchmark.tasks.intent.person import Leads
+from colift.benchmark.tasks.intent.poses import PosePlan
 from colift.benchmark.tasks.intent.scores import opposing_work_j, peak_mm, pose_rmse_mm, settling_ms
 from colift.benchmark.tasks.intent.table import INTENT_METRICS
 from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of

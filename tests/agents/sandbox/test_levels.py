@@ -227,7 +227,9 @@ import os, signal
 from pathlib import Path
 from colift.agents.sandbox.host.policy import SandboxedPolicy
 
-policy = SandboxedPolicy(name="where", origin="where.py:Where", folder=Path("."), isolation="limits")
+policy = SandboxedPolicy(
+    name="where", origin="where.py:Where", folder=Path("."), isolation="limits"
+)
 with policy.agent() as agent:
     agent.reset(1)
 print(agent.printed, flush=True)

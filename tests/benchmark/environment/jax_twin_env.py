@@ -84,7 +84,7 @@ def test_the_same_seed_gives_the_same_lifts():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"scenario": "smooth", "subject": "S1"}, "scenario 'any', subject 'draw', or both"),
+        ({"behaviour": "smooth", "subject": "S1"}, "behaviour 'any', subject 'draw', or both"),
         ({"reward": "money"}, "reward must be 'level' or 'score', got 'money'"),
         ({"num_envs": 0}, "at least 1, got 0"),
         ({"pool": 0}, "at least 1"),

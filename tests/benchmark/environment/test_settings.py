@@ -10,8 +10,8 @@ from colift.benchmark.environment import RobotEnv, parallel_env
 @pytest.mark.parametrize(
     ("setting", "value", "told"),
     [
-        ("scenario", ["smooth", "pause"], r"scenario must be one name.*\['smooth', 'pause'\]"),
-        ("scenario", None, "scenario must be one name, a string, got None"),
+        ("behaviour", ["smooth", "pause"], r"behaviour must be one name.*\['smooth', 'pause'\]"),
+        ("behaviour", None, "behaviour must be one name, a string, got None"),
         ("subject", {"S1"}, "subject must be one name"),
         ("subject", "S9", "unknown subject 'S9'; known: S1"),
         ("latency", "0.1", "latency must be a number of seconds, got '0.1'"),
@@ -25,15 +25,30 @@ def test_an_odd_setting_is_refused_in_words(make, setting, value, told):
         make(**{setting: value})
 
 
-@pytest.mark.parametrize("partner", ["human", "", None, ["nao"]])
-def test_the_robot_is_the_only_partner_of_the_gymnasium_view(partner):
-    with pytest.raises(InputError, match=r"partner must be a robot here, got .*parallel_env"):
+@pytest.mark.parametrize(
+    ("partner", "told"),
+    [
+        ("human", "partner must be a robot here, got 'human': .*parallel_env"),
+        ("", "partner must be one of 'iiwa', 'nao', 'human', 'live', got ''"),
+        (None, "partner must be one name, a string, got None"),
+        (["nao"], "partner must be one name, a string"),
+    ],
+)
+def test_the_partner_of_the_gymnasium_view_is_a_robot(partner, told):
+    with pytest.raises(InputError, match=told):
         RobotEnv(partner=partner)
-    RobotEnv(partner="nao").close()
+
+
+@pytest.mark.parametrize("partner", ["nao", "iiwa"])
+def test_the_gymnasium_view_has_any_robot(partner):
+    env = RobotEnv(partner=partner)
+    env.reset(seed=1)
+    assert np.isfinite(env.step(np.array([0.01]))[0]).all()
+    env.close()
 
 
 def test_an_unknown_setting_is_named():
-    with pytest.raises(InputError, match="no such setting: humans, speed; known: scenario"):
+    with pytest.raises(InputError, match="no such setting: humans, speed; known: behaviour"):
         RobotEnv(speed=2, humans=3)
 
 

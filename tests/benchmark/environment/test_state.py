@@ -8,10 +8,10 @@ from colift.benchmark.environment import TrueState, env, parallel_env
 LIFTS = {
     "level": {},
     "two people": {"partner": "human"},
-    "drawn": {"scenario": "any", "subject": "draw"},
-    "intent": {"scenario": "pivot", "task": "intent"},
-    "agree": {"scenario": "own_hurdle", "task": "agree"},
-    "ball": {"scenario": "ball_smooth", "task": "ball"},
+    "drawn": {"behaviour": "any", "subject": "draw"},
+    "intent": {"behaviour": "pivot", "task": "intent"},
+    "agree": {"behaviour": "own_hurdle", "task": "agree"},
+    "ball": {"behaviour": "ball_smooth", "task": "ball"},
 }
 
 

@@ -28,7 +28,7 @@ from colift.benchmark.world import since_reset
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import api_test, parallel_api_test, parallel_seed_test
 
-DRAWN = {"scenario": "any", "subject": "draw", "reward": "score"}
+DRAWN = {"behaviour": "any", "subject": "draw", "reward": "score"}
 
 
 def episode(made, policy, seed):
@@ -257,7 +257,7 @@ def test_gymnasium_makes_vectors_of_it(mode):
 
 @pytest.mark.parametrize("make", [RobotEnv, parallel_env])
 def test_an_unknown_reward_is_refused(make):
-    with pytest.raises(InputError, match="reward must be 'level' or 'score', got 'speed'"):
+    with pytest.raises(InputError, match="reward must be 'task' or 'score', got 'speed'"):
         make(reward="speed")
 
 

@@ -7,10 +7,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
-from colift.agents.tasks.agree import negotiating
 from colift.agents.tasks.agree.agree_game import AgreeGame
 from colift.agents.tasks.agree.observation import AgreeObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.agree import negotiating
 from colift.benchmark.tasks.agree.task import Agree
 from colift.benchmark.twin.task_twin import TaskTwin
 from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch

@@ -8,10 +8,10 @@ import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.agent import FRAME
-from colift.agents.tasks.ball import steering as steering_rule
 from colift.agents.tasks.ball.ball_game import BallGame
 from colift.agents.tasks.ball.observation import BallObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.ball import steering as steering_rule
 from colift.benchmark.tasks.ball.task import BALL
 from colift.benchmark.twin.task_twin import TaskTwin
 from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch

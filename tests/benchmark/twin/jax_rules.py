@@ -7,11 +7,11 @@ import jax
 import pytest
 from colift.agents.agent import FRAME
 from colift.agents.policies.copy import Copy
-from colift.agents.tasks.ball import Steers
 from colift.base.errors import InputError
 from colift.base.registry import TASKS, own_entries
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.tasks.ball.person import Steers
 from colift.benchmark.twin.agreement import CLOSE, largest_difference
 from colift.benchmark.twin.touch_lifts import draw_touch
 

@@ -1,1 +1,0 @@
-"""Lifts by real people: the room in which they lift, and its web process."""
