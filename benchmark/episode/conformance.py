@@ -52,7 +52,7 @@ def task_fault(task: object) -> str | None:
 def observation_fault(lift: Lift) -> str | None:
     """Return the fault of the present observations of a lift, or None."""
     task, frames = lift.task, lift.frames_per_step
-    holder = "robot" if lift.seat.is_robot else "partner"
+    holder = "robot" if lift.seat.is_robot else "second_person"
     bounds = task.robot_bounds() if lift.seat.is_robot else task.human_bounds(frames)
     return _view_fault(holder, lift.partner_observation(), bounds) or _view_fault(
         "human", lift.human_observation(), task.human_bounds(frames)

@@ -1,4 +1,4 @@
-"""Whether a robot holds a table: where it is told, the same each time, and as it is drawn."""
+"""Conformance of a robot: it holds the table where it is told, always alike, and as it is drawn."""
 
 import contextlib
 import math

@@ -16,7 +16,7 @@ def installed(folder, told):
     if told is not None:
         (info / "direct_url.json").write_text(json.dumps(told))
     code = (
-        "import sys; from colift.agents import extras\n"
+        "import sys; from colift.base import extras\n"
         f"sys.path[:] = [{str(folder / 'site')!r}]\n"
         "print(extras.how_to_install('board'))"
     )

@@ -5,7 +5,7 @@ import sys
 
 CODE = """
 import numpy
-from colift.agents import threads
+from colift.base import threads
 from threadpoolctl import threadpool_info
 
 def limits():

@@ -85,7 +85,7 @@ def test_the_same_seed_gives_the_same_lifts():
     ("settings", "message"),
     [
         ({"behaviour": "smooth", "subject": "S1"}, "behaviour 'any', subject 'draw', or both"),
-        ({"reward": "money"}, "reward must be 'level' or 'score', got 'money'"),
+        ({"reward": "money"}, "reward must be 'task' or 'score', got 'money'"),
         ({"num_envs": 0}, "at least 1, got 0"),
         ({"pool": 0}, "at least 1"),
     ],
