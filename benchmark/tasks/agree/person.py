@@ -6,7 +6,7 @@ from typing import Any, ClassVar, Generic, NamedTuple
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import Subject
-from colift.agents.humans.following import Along
+from colift.agents.humans.following import Along, FollowsPlan
 from colift.agents.humans.person import Trait
 from colift.agents.rules import ArrayFunctions, Drawn, N, View
 from colift.benchmark.tasks.agree.manner import TRAITS, AgreeingManner, agreeing_manner
@@ -40,7 +40,7 @@ class Negotiating(NamedTuple, Generic[N]):
     detour: Detour[N]
 
 
-class Negotiates:
+class Negotiates(FollowsPlan):
     """A :class:`.Person` who goes the common way, with detours to the own hurdle and the partner's.
 
     The person negotiates as :func:`.negotiate` and :func:`.response` say, and the hand's detour
@@ -50,8 +50,6 @@ class Negotiates:
     """
 
     traits: ClassVar[Mapping[str, Trait]] = TRAITS
-    shown: ClassVar[tuple[str, ...]] = ()
-    intention: ClassVar[Any] = Along
 
     def draw(
         self, subject: Subject, seed: Callable[[str], int], steps: int, size: int
@@ -86,13 +84,6 @@ class Negotiates:
         aim = f.where(resting, wanted - way[-1], 0.0)
         detour, heights = approach(f, memory.detour, aim, way)
         return Negotiating(agreeing, detour), Along(heights)
-
-    def drive(
-        self, f: ArrayFunctions[N], drawn: Drawn[N], intention: Any, reference: N
-    ) -> tuple[N, N]:
-        """Return a level table, and level wrists."""
-        level = reference - reference
-        return level, level
 
     def knows(
         self, f: ArrayFunctions[N], drawn: Drawn[N], memory: Any, view: View[N], frames: int
