@@ -30,7 +30,7 @@ from colift.benchmark.tasks.agree.scores import (
 from colift.benchmark.tasks.agree.task import Agree
 from colift.testing import check_suite, check_task
 
-DIGEST = "aa00b4175cbb0feb"
+DIGEST = "a139738ca5010b12"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
