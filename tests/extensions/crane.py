@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import gettempdir
 from typing import ClassVar
 
 from colift.agents.agent import FRAME
@@ -68,7 +69,7 @@ class Crane:
 
     def model(self):
         """Return the URDF file of its picture."""
-        path = Path(__file__).with_name("crane.urdf")
+        path = Path(gettempdir(), "crane.urdf")
         path.write_text(MODEL)
         return path
 
