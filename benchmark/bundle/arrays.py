@@ -12,7 +12,7 @@ import numpy as np
 from colift.base.errors import InputError, error_text
 from numpy.typing import NDArray
 
-MOST_BYTES: Final = 2**30
+MOST_BYTES: Final = 2**32
 """Largest size of all arrays of a file together, unpacked [bytes]."""
 
 MOST_RATIO: Final = 20

@@ -29,7 +29,7 @@ HARDWARE: Final = "hardware"
 LARGEST: Final[Mapping[str, int]] = {
     RESULTS: 2**24,
     EPISODES: 2**26,
-    TRACES: 2**30,
+    TRACES: 2**31,
     MANIFEST: 2**24,
     RECORDINGS: 2**26,
     INPUTS: 2**27,
