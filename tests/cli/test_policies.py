@@ -72,7 +72,7 @@ def test_policies_of_other_packages_by_name_are_sandboxed(monkeypatch):
     )
     policy = choose_policy("hold")
     assert isinstance(policy, SandboxedPolicy)
-    assert (policy.name, policy.place) == ("hold", "colift.agents.policies.hold:Hold")
+    assert (policy.name, policy.origin) == ("hold", "colift.agents.policies.hold:Hold")
 
 
 def test_none_is_without_isolation_for_all():

@@ -121,7 +121,7 @@ def expected(board):
 
 def sandboxed(board, level, place, limits=PATIENT):
     return SandboxedPolicy(
-        name=place, place=place, folder=board / "mine", isolation=level, limits=limits
+        name=place, origin=place, folder=board / "mine", isolation=level, limits=limits
     )
 
 

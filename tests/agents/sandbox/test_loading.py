@@ -65,7 +65,7 @@ def policy(tmp_path, each_level):
     def policy(name, source=POLICY):
         (tmp_path / "policy.py").write_text(source)
         return SandboxedPolicy(
-            name=name, place=f"policy:{name}", folder=tmp_path, isolation=each_level
+            name=name, origin=f"policy:{name}", folder=tmp_path, isolation=each_level
         )
 
     yield policy
