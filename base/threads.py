@@ -28,11 +28,13 @@ _Visit: Final = ctypes.CFUNCTYPE(
 )
 
 
-@_Visit  # type: ignore[untyped-decorator]
-def _first(info: "ctypes._Pointer[_Loaded]", size: int, found: list[_Count]) -> int:
+def _note_counts(info: "ctypes._Pointer[_Loaded]", size: int, found: list[_Count]) -> int:
     if size >= ctypes.sizeof(_Loaded):
         found.append((info.contents.loaded, info.contents.unloaded))
     return 1  # The counts are the same for each library.
+
+
+_FIRST: Final = _Visit(_note_counts)
 
 
 def _library_count() -> _Count | None:
@@ -40,7 +42,7 @@ def _library_count() -> _Count | None:
     found: list[_Count] = []
     visit = getattr(ctypes.pythonapi, "dl_iterate_phdr", None)
     if visit is not None:
-        visit(_first, ctypes.py_object(found))
+        visit(_FIRST, ctypes.py_object(found))
     return found[0] if found else None
 
 

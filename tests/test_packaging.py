@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PACKAGES = ("agents", "benchmark", "cli", "leaderboard", "robots")
+PACKAGES = ("agents", "base", "benchmark", "cli", "leaderboard", "play", "robots")
 KINDS = ("wheel", "wheel of the sdist", "editable", "checkout")
 
 WHERE = """

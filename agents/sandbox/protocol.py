@@ -18,7 +18,7 @@ from colift.base.errors import InputError
 AGENTS: Final = Path(__file__).resolve().parents[1]
 """``colift.agents``, of which the guest sees all but the humans."""
 
-SHOWN: Final = (AGENTS.with_name("base"), AGENTS)
+SHOWN: Final = (AGENTS.with_name("base").resolve(), AGENTS)
 """The parts of colift that the guest sees, in the order of their imports."""
 
 OURS: Final = "colift.agents."

@@ -36,8 +36,13 @@ def simulation_hash() -> str:
     tasks, humans, robots = (
         [lookup(each, name) for name in own_entries(each)] for each in (TASKS, HUMANS, ROBOTS)
     )
-    stated = (*STATED, *(task.metrics for task in tasks))
-    return code_hash(*SIMULATES, *tasks, *humans, *robots, without=stated, values=True)
+    return code_hash(*SIMULATES, *tasks, *humans, *robots, without=stated(), values=True)
+
+
+@functools.cache
+def stated() -> tuple[object, ...]:
+    """Return the values that code may use without a digest of it: metrics of tasks, too."""
+    return (*STATED, *(lookup(TASKS, name).metrics for name in own_entries(TASKS)))
 
 
 def scores_hash() -> str:

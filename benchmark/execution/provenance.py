@@ -15,7 +15,7 @@ import numpy as np
 from colift.agents.sandbox.guest import forkserver
 from colift.base.errors import InputError
 from colift.base.identity import Root, code_hash
-from colift.benchmark.episode.identity import STATED, simulation_hash
+from colift.benchmark.episode.identity import simulation_hash, stated
 from colift.benchmark.execution.batches import Batch
 from colift.benchmark.execution.distributions import binaries, engine, library_versions
 from colift.benchmark.execution.packaging import PackagedPolicy
@@ -132,4 +132,4 @@ def check_same_origin(
 
 @functools.cache
 def _code() -> str:
-    return code_hash(*PLAYS, without=STATED)
+    return code_hash(*PLAYS, without=stated())

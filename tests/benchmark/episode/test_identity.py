@@ -17,9 +17,9 @@ from colift.agents import control, estimators, humans, policies
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.identity import Code, Module
 from colift.base.identity.statements import Statement
-from colift.base.registry import HUMANS, POLICIES, TASKS, lookup, own_entries, own_policies
+from colift.base.registry import HUMANS, POLICIES, ROBOTS, TASKS, lookup, own_entries, own_policies
 from colift.benchmark import episode, tasks, world
-from colift.benchmark.episode.identity import PLAYS_AND_SCORES, SIMULATES, STATED
+from colift.benchmark.episode.identity import PLAYS_AND_SCORES, SIMULATES, stated
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.scenario import Scenario
@@ -29,7 +29,7 @@ from colift.benchmark.tasks.level.task import Level
 
 LOOSE = (
     *("agents.actions", "agents.agent"),
-    *("agents.ball.facts", "agents.tasks.agree.belief", "agents.touch.pose_filter"),
+    *("agents.tasks.ball.facts", "agents.tasks.agree.belief", "agents.tasks.intent.pose_filter"),
 )
 APPEARANCE = ("colift.robots.nao.shapes",)
 """What a robot looks like: no lift depends on it, so that no number there changes a digest."""
@@ -43,8 +43,7 @@ NOT_IN_SUITES = ("oracle", "rehearsal")
 AT_IMPORTS = {("colift.registration", "_Awaited")}
 """What is asked at every import, such as a policy's late one, and waits for Gymnasium."""
 LIVE = (humans.Played, humans.Cued, humans.HandLog, humans.PersonAsRobot)
-BEYOND = [lookup(group, name) for group in (TASKS, HUMANS) for name in own_entries(group)]
-ELSEWHERE = (*STATED, *(each.metrics for each in BEYOND if hasattr(each, "metrics")))
+BEYOND = [lookup(group, name) for group in (TASKS, HUMANS, ROBOTS) for name in own_entries(group)]
 SUITE = (*PLAYS_AND_SCORES, Scenario, humans.Subject, humans.Recording, *LIVE, *BEYOND)
 """The roots of what a suite's digest has of the code, all tasks and live lifts included."""
 
@@ -118,7 +117,7 @@ def with_sources(sources, code=None):
 def survivors(names):
     """Return how many numbers there are, and of each module those that change no digest."""
     code = Code()
-    before = code.hash(*SUITE, without=STATED)
+    before = code.hash(*SUITE, without=stated())
     count, left = 0, {}
     for name in names:
         tree = ast.parse(source(name))
@@ -129,7 +128,7 @@ def survivors(names):
             values = [node.value for node in changed]
             for node in changed:
                 node.value = another(node.value)
-            found = with_sources({name: tree}, code).hash(*SUITE, without=STATED)
+            found = with_sources({name: tree}, code).hash(*SUITE, without=stated())
             for node, value in zip(changed, values, strict=True):
                 node.value = value
             return found == before
@@ -204,7 +203,7 @@ def code():
 @pytest.fixture(scope="module")
 def of_suite(code):
     """The definitions behind the digest of a suite."""
-    return set(code.definitions(*SUITE, Level, without=STATED))
+    return set(code.definitions(*SUITE, Level, without=stated()))
 
 
 @pytest.mark.parametrize("name", own_policies("level"))
@@ -294,9 +293,9 @@ def hashes(code):
     """Return every hash of code that identifies something."""
     own = {name: code.hash(PolicySpec(text=name).load()) for name in own_entries(POLICIES)}
     return {
-        "suite": code.hash(*SUITE, without=STATED),
-        "simulation": code.hash(*SIMULATES, *BEYOND, without=ELSEWHERE),
-        "colift": code.hash(*PLAYS, without=STATED),
+        "suite": code.hash(*SUITE, without=stated()),
+        "simulation": code.hash(*SIMULATES, *BEYOND, without=stated()),
+        "colift": code.hash(*PLAYS, without=stated()),
         **own,
     }
 
@@ -324,7 +323,7 @@ def test_tidying_changes_no_digest(everything, before):
     ("name", "old", "new"),
     [
         ("episode.scenario", "human: Behaviour", 'human: "Behaviour"'),
-        ("episode.level_metrics", 'label="Smoothness"', 'label="How smooth"'),
+        ("tasks.level.table", 'label="Smoothness"', 'label="How smooth"'),
         ("episode.metric", '"less", "more", "near zero"', '"less", "near zero", "more"'),
         ("tasks.agree.task", "table import AGREE_METRICS", "table import AGREE_METRICS as SAME"),
     ],

@@ -197,14 +197,14 @@ class TestSettings:
     @pytest.mark.parametrize(
         ("settings", "told"),
         [
-            ({"scenario": "smoth"}, "smooth"),
+            ({"behaviour": "smoth"}, "smooth"),
             ({"subject": "S9"}, "S1, S2, S3, S4, S5"),
-            ({"partner": "dog"}, "'nao' or 'human'"),
+            ({"partner": "dog"}, "'iiwa', 'nao', 'human', 'live', got 'dog'"),
             ({"latency": 0.015}, "multiple of 0.01"),
             ({"latency": -0.1}, "latency"),
             ({"control_period": 0.0}, "control_period"),
-            ({"scenario": "recorded"}, "recorded:FILE.csv"),
-            ({"scenario": "recorded:/nowhere.csv"}, "/nowhere.csv"),
+            ({"behaviour": "recorded"}, "recorded:FILE.csv"),
+            ({"behaviour": "recorded:/nowhere.csv"}, "/nowhere.csv"),
         ],
     )
     def test_a_wrong_one_is_named_with_what_would_be_right(self, settings, told):

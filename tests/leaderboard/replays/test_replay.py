@@ -141,6 +141,7 @@ def test_the_body_at_the_robots_end_is_stated_unless_it_is_a_nao(made, episode, 
     assert "holder" not in made
     person = dataclasses.replace(SCENARIO, partner="live")
     assert replay_content(episode, person, ghost, policy="Ann")["holder"] == "person"
-    monkeypatch.setattr("colift.leaderboard.replays.replay.shown_body", lambda partner: "unknown")
-    content = replay_content(episode, SCENARIO, ghost, policy="lift")
-    assert content["holder"] == "no picture of the robot nao"
+    monkeypatch.setattr("colift.leaderboard.replays.replay.shown_body", lambda partner: None)
+    other = dataclasses.replace(SCENARIO, partner="iiwa")
+    content = replay_content(episode, other, ghost, policy="lift")
+    assert content["holder"] == "no picture of the robot iiwa"
