@@ -153,6 +153,7 @@ def play(env: ParallelLift, *, rendered: bool) -> str:
     return digest
 
 
+@pytest.mark.slow
 def test_looking_does_not_change_the_lift() -> None:
     unseen = play(parallel_env(control_period=0.5), rendered=False)
     seen = play(parallel_env(control_period=0.5, render_mode="rgb_array"), rendered=True)
