@@ -10,6 +10,8 @@ import sys
 import colift
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ELSEWHERE = """
 import ctypes, importlib, json, os, pkgutil, select, signal, socket, sys
 

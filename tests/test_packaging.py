@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("agents", "base", "benchmark", "cli", "leaderboard", "play", "robots")
 KINDS = ("wheel", "wheel of the sdist", "editable", "checkout")
@@ -99,7 +101,6 @@ def in_a_clone(folder):
         (folder / name).symlink_to(ROOT / name)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("around", [above_a_clone, beside_a_stray_folder, in_a_clone])
 def test_it_is_the_same_from_any_folder(install, around, tmp_path):
     around(tmp_path)
@@ -114,7 +115,6 @@ def test_it_is_the_same_from_any_folder(install, around, tmp_path):
     assert found["sandbox"] == [], "a sandboxed policy would see these"
 
 
-@pytest.mark.slow
 def test_it_scores_and_has_its_command(install, tmp_path):
     beside_a_stray_folder(tmp_path)
     score = "import colift; print(colift.evaluate('copy').rmse_mm)"

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import Final
 
-from colift.agents.actions import HAND_SPEED
 from colift.benchmark.channels import channel_name
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.ranking import Ranking
@@ -133,9 +132,10 @@ def goals(comparison: Comparison) -> list[str]:
 
 def unit_warnings(comparison: Comparison) -> list[str]:
     """Return a sentence per policy whose actions are probably not in metres."""
+    speed = comparison.results.suite.hand_speed
     return [
         f"{ranked.name}: {100 * ranked.clipped:.0f} % of its actions were clipped to the "
-        f"speed of the hands ({HAND_SPEED:g} m/s): are they changes of the height, in metres?"
+        f"speed of the hands ({speed:g} m/s): are they changes of the height, in metres?"
         for ranked in comparison.overall.policies
         if ranked.clipped is not None and ranked.clipped > MOSTLY_CLIPPED
     ]

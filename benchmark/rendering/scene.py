@@ -13,6 +13,7 @@ from colift.benchmark.rendering.caption import letters
 from colift.benchmark.rendering.mannequin import Mannequin
 from colift.benchmark.rendering.solids import box, disc, limb
 from colift.benchmark.rendering.style import AIM, HUMAN, INK, ROBOT, SKY, rgba
+from colift.benchmark.robots.model import load_model
 from colift.benchmark.robots.robot import Robot
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.table import FAR_GRIP, TABLE_LENGTH
@@ -148,16 +149,8 @@ class Scene:
             )
 
     def _load(self, robot: Robot) -> None:
-        client = self._client
         self._robot = robot
-        self._body: int = pybullet.loadURDF(
-            str(robot.model()), robot.place, useFixedBase=True, physicsClientId=client
-        )
-        joints = range(pybullet.getNumJoints(self._body, physicsClientId=client))
-        self._joints = {
-            pybullet.getJointInfo(self._body, i, physicsClientId=client)[1].decode(): i
-            for i in joints
-        }
+        self._body, self._joints = load_model(self._client, robot)
 
     def pose(self, human_end: float, robot_end: float) -> None:
         """Show the lift with the table's ends at these heights [m]."""

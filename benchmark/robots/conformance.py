@@ -6,10 +6,10 @@ from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
+from colift.benchmark.robots.model import load_model
 from colift.benchmark.robots.robot import Robot, robot_fault
 from colift.benchmark.world import BodyParameters, BulletWorld, since_reset
 from colift.benchmark.world.bullet import pybullet
-from colift.benchmark.world.engine import load_urdf
 from numpy.typing import NDArray
 
 SAG: Final = 0.02
@@ -75,14 +75,11 @@ def _held(world: BulletWorld, path: list[float]) -> NDArray[np.float64]:
 def _model_fault(robot: Robot) -> str | None:
     client: int = pybullet.connect(pybullet.DIRECT)
     try:
-        body = load_urdf(client, robot.model(), robot.place)
-        rows = range(pybullet.getNumJoints(body, physicsClientId=client))
-        infos = [pybullet.getJointInfo(body, row, physicsClientId=client) for row in rows]
+        _, names = load_model(client, robot)
     except pybullet.error as error:
         return f"has a model that PyBullet does not load: {robot.model()}: {error}"
     finally:
         pybullet.disconnect(client)
-    names = {info[1].decode() for info in infos}
     for height in robot.stroke:
         for name, angle in robot.posture(height).items():
             if name not in names:

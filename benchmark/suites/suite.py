@@ -51,6 +51,11 @@ class Suite:
         return len(self.scenarios) * len(self.seeds)
 
     @property
+    def hand_speed(self) -> float:
+        """The fastest change of the hand command of its robot [m/s]."""
+        return self.scenarios[0].seat.action_range(1.0)[1]
+
+    @property
     def metrics(self) -> Metrics:
         """The metrics of its task."""
         return self.scenarios[0].task.metrics

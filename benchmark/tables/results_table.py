@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from colift.agents.actions import HAND_SPEED
 from colift.agents.real_time import LOWEST_RATE
 from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from colift.benchmark.bundle import Results
@@ -79,8 +78,8 @@ def results_text(content: Results) -> str:
     clipped = summary.metrics.get("clipped")
     if clipped is not None and clipped.mean is not None:
         lines.append(
-            f"{100 * clipped.mean:.1f} % of the actions exceeded the speed of the hands "
-            f"({HAND_SPEED:g} m/s) and were clipped."
+            f"{100 * clipped.mean:.1f} % of the actions exceeded the speed of the hands and were "
+            "clipped."
         )
     if step.p50 is not None and step.p99 is not None:
         lines.append(f"Policy time per step: median {step.p50:.3f} ms, p99 {step.p99:.3f} ms")

@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 from colift.benchmark.rendering import mannequin
 from colift.benchmark.rendering.scene import FLOOR, PEDESTAL
+from colift.benchmark.robots.model import load_model
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, Robot, make_robot, robot_names
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.table import FAR_GRIP, TABLE_LENGTH
@@ -153,17 +154,10 @@ def _chain(robot: Robot) -> dict[str, Any]:
     """Return a robot as its links between joints: the places of these, and of its foot."""
     client: int = pybullet.connect(pybullet.DIRECT)
     try:
-        body = pybullet.loadURDF(
-            str(robot.model()), robot.place, useFixedBase=True, physicsClientId=client
-        )
-        joints = [
-            pybullet.getJointInfo(body, i, physicsClientId=client)
-            for i in range(pybullet.getNumJoints(body, physicsClientId=client))
-        ]
-        index = {joint[1].decode(): joint[0] for joint in joints}
+        body, index = load_model(client, robot)
         chain = [index[[*robot.posture(0.0)][-1]]]
-        while joints[chain[0]][16] >= 0:
-            chain.insert(0, joints[chain[0]][16])
+        while (parent := pybullet.getJointInfo(body, chain[0], client)[16]) >= 0:
+            chain.insert(0, parent)
 
         def pose(height: float) -> list[list[float]]:
             for name, angle in robot.posture(height).items():

@@ -22,6 +22,7 @@ def test_what_is_learned_can_be_run_and_says_where_it_came_from(colift, tmp_path
     assert code == json.loads(told)["summary"]["failed"] == 0
 
 
+@pytest.mark.slow
 def test_bounds_tell_claims_and_whether_they_hold(colift):
     code, told, errors = colift("bounds", "--people", "1", "--each", "1", "--jobs", "1")
     assert code in (0, 1)

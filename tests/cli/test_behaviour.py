@@ -40,6 +40,7 @@ def lab(tmp_path_factory):
     return run
 
 
+@pytest.mark.slow
 def test_a_registered_behaviour_is_listed_run_and_verified(lab):
     assert "surprise" in lab("list")
     short = ("--suite", "quick-v1", "--seeds", "0:1", "--behaviour", "shy")
@@ -54,6 +55,7 @@ def test_a_registered_behaviour_is_listed_run_and_verified(lab):
     assert "bundle is verified" in lab("verify", "bundle", "--jobs", "1")
 
 
+@pytest.mark.slow
 def test_policies_are_compared_on_a_behaviour(lab):
     options = ("--suite", "quick-v1", "--seeds", "0:1", "--behaviour", "shy", "--jobs", "1")
     content = json.loads(lab("compare", "copy", "hold", *options, "--json"))

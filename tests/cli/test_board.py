@@ -113,6 +113,7 @@ def test_a_board_that_begins_with_a_token_has_the_practice_rows(colift, tmp_path
     board.close()
 
 
+@pytest.mark.slow
 def test_a_worker_does_what_waits_and_ends(colift, tmp_path, monkeypatch):
     monkeypatch.setitem(entries(SUITES), "tiny", ENTRY)
     board = Board.open(tmp_path / "board", "tiny")

@@ -10,6 +10,8 @@ from colift.cli.check import all_checks
 
 from ..agents.sandbox.keeping import COUNTING
 
+pytestmark = pytest.mark.slow
+
 HEAD = "import sys\nclass Policy:\n"
 
 ACTING = HEAD + "    def reset(self, seed): pass\n    def act(self, o): return "

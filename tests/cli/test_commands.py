@@ -170,6 +170,7 @@ def test_bad_recordings_are_refused(colift, tmp_path, text, told):
     assert told in done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("act", "told"),
     [
@@ -193,6 +194,7 @@ def test_a_failing_policy_is_reported_and_the_run_goes_on(colift, policy, act, t
     assert set(re.findall(r'File "(.*?)"', done.stderr)) <= {"policy.py"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("act", ["raise KeyError('oops')", "return None"])
 def test_a_run_ends_early_if_every_lift_fails_at_once(colift, policy, act, tmp_path):
     bundle = ("--out", tmp_path / "kept", "--jobs", "1")
@@ -220,6 +222,7 @@ def test_render_draws_a_picture(colift, tmp_path):
     assert "pause/S1 seed 0" in done.stdout
 
 
+@pytest.mark.slow
 def test_render_draws_the_intended_pose_of_a_task_and_refuses_a_policy_of_another(colift, tmp_path):
     picture = tmp_path / "pose.png"
     lift = ("--behaviour", "pivot", "--out", picture)

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 QUICK = ("--suite", "quick-v1", "--jobs", "1")
 
 

@@ -111,6 +111,7 @@ def test_the_help_and_the_completion_of_run_load_no_engine():
     assert imported(**words) & FULL == set()
 
 
+@pytest.mark.slow
 def test_a_run_loads_neither_robots_nor_live_lifts_nor_trainings():
     found = imported("run", "copy", "--behaviour", "smooth", "--seeds", "0:1", "--jobs", "1")
     for folder in ("agents.hardware", "benchmark.live", "benchmark.training", "benchmark.twin"):

@@ -10,6 +10,8 @@ import time
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 INTERRUPTED = """
 import signal
 from colift.benchmark.episode.lift import Scripted

@@ -16,6 +16,8 @@ from colift.base.extras import how_to_install
 
 from ..agents.hardware.conftest import PatientSession
 
+pytestmark = pytest.mark.slow
+
 WITHOUT_EXTRA = """
 import sys
 from importlib.machinery import PathFinder

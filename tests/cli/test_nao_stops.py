@@ -14,6 +14,8 @@ import time
 import pytest
 from colift.agents.hardware.trial_log import read_trial
 
+pytestmark = pytest.mark.slow
+
 
 def answered(run, tries=3):
     """Return what a run comes to on a machine that lets the emulator answer in time.

@@ -19,6 +19,8 @@ from colift.agents.hardware.operator import HANDOVER
 
 from ..agents.hardware.conftest import PatientSession
 
+pytestmark = pytest.mark.slow
+
 INTERRUPTS = int(os.environ.get("COLIFT_TEST_KILLS", "2"))
 """Number of random moments."""
 
@@ -173,7 +175,6 @@ def test_a_controller_that_was_stopped_sends_nothing_but_the_stop(run):
     assert is_free(begun.laboratory)
 
 
-@pytest.mark.slow
 def test_a_controller_that_is_stopped_for_long_is_replaced_by_its_watchdog(run):
     begun = run("--yes", stderr=subprocess.PIPE).lifting()
     begun.process.send_signal(signal.SIGSTOP)
@@ -199,7 +200,6 @@ def test_a_controller_that_is_killed_is_replaced_by_its_watchdog(run, during):
 
 
 @pytest.mark.parametrize("seed", range(INTERRUPTS))
-@pytest.mark.slow
 def test_ctrl_c_at_any_moment_leaves_the_arms_safe(run, seed):
     """Also while it loads, and in the set-up; twice, as impatient people do."""
     moment = random.Random(seed).uniform(0.3, 12.0)

@@ -5,6 +5,8 @@ import json
 import pytest
 from colift.agents.submissions.submission import read_submission
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_template_is_written_once_and_the_next_step_told(colift, tmp_path):
     done = colift("new", "mine", cwd=tmp_path)

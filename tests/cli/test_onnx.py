@@ -27,6 +27,8 @@ from ..agents.onnx.networks import (
 )
 from ..leaderboard import tiny
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(autouse=True)
 def small(monkeypatch, tmp_path):

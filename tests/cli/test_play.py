@@ -15,6 +15,8 @@ from colift.benchmark.real_lifts.session_folder import EVENTS
 
 from ..play.web.pages import GRIP, Page, new_session
 
+pytestmark = pytest.mark.slow
+
 
 def descendants(process):
     """Return the ids of all processes that a process has started, and they in turn."""

@@ -81,6 +81,7 @@ def test_none_is_without_isolation_for_all():
     assert isinstance(choose_policy("mine", "none"), TrustedSubmission)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("text", ["proportional,gain=2", "mine", "policy.py:Mine,gain=1.2"])
 def test_a_level_is_for_all_and_changes_no_action(text, each_level):
     policy = choose_policy(text, each_level)
@@ -179,6 +180,7 @@ def test_what_only_the_sandbox_can_tell_is_told_by_its_check(text, told):
     assert told in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_run_says_what_kept_the_policy_apart(each_level, tmp_path, capsys):
     write_template(tmp_path / "mine")
     run(str(tmp_path / "mine"), suite="quick-v1", seeds="0:1", isolation=each_level, jobs=1)

@@ -106,6 +106,7 @@ def test_a_package_that_boards_lack_is_noted_before_a_run(colift, tmp_path):
     assert colift("run", "hold", *QUICK).stderr == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("act", "told"),
     [

@@ -16,6 +16,8 @@ from colift.benchmark.execution.journal import journal_path
 from colift.benchmark.execution.records import records
 from colift.benchmark.profiling.loopback import loopback_cluster
 
+pytestmark = pytest.mark.slow
+
 SLOW = """
 import time
 import numpy as np

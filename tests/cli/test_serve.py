@@ -17,6 +17,8 @@ from colift.leaderboard.core.tokens import Tokens
 
 from ..play.web.pages import Page, new_session
 
+pytestmark = pytest.mark.slow
+
 
 def parent(process):
     """Return the id of a process's parent, and whether it is still there."""

@@ -9,6 +9,8 @@ import time
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 COLIFT = f"{sys.executable} -m colift"
 QUICK = "run copy --suite quick-v1 --seeds 0:1 --jobs 1"
 

@@ -16,6 +16,8 @@ from ..agents.sandbox.keeping import COUNTING
 from ..leaderboard import tiny
 from ..leaderboard.signed import write_signed
 
+pytestmark = pytest.mark.slow
+
 TO_BOARD = ("--board", "board", "--suite", "quick-v1")
 TO_TINY = ("--board", "tiny", "--suite", "tiny")
 

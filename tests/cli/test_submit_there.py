@@ -16,6 +16,8 @@ from colift.leaderboard.core.tokens import Tokens
 from ..leaderboard import tiny
 from ..leaderboard.signed import write_signed
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 
 def test_trainings_from_data(in_own_process):
     if importlib.util.find_spec("minari") is None:

@@ -8,6 +8,8 @@ from colift.cli.tables.validity import source_heading
 from colift.cli.validity import separated
 from colift.leaderboard.practice.season_import import PlayedSeason
 
+pytestmark = pytest.mark.slow
+
 FEW = ("--policies", "copy,hold,reactive,proportional,gain=0.4", "--suite", "quick-v1")
 
 

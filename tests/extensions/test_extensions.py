@@ -26,6 +26,7 @@ def test_it_conforms():
     check_behaviour(lookup(HUMANS, "shy")())
 
 
+@pytest.mark.slow
 def test_its_metric_is_in_the_table_the_csv_and_the_json_and_its_bundle_verifies(colift, tmp_path):
     done = colift("run", "copy", "--suite", "slope-v1", "--out", "mine", COLUMNS="82")
     assert done.returncode == 0, done.stderr

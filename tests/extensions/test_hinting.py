@@ -10,6 +10,8 @@ from colift.testing import check_suite, check_task
 
 from . import hinting
 
+pytestmark = pytest.mark.slow
+
 
 def test_it_plays_scores_and_verifies(install, colift):
     install(hinting.__file__, hinting.ENTRY_POINTS)

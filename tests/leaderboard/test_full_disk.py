@@ -12,6 +12,8 @@ from colift.leaderboard.core.tokens import Tokens
 from .rows import add
 from .signed import write_signed
 
+pytestmark = pytest.mark.slow
+
 IN_NAMESPACE = ["unshare", "--user", "--map-root-user", "--mount"]
 
 FILL = """

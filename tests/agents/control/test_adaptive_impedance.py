@@ -87,6 +87,7 @@ def test_one_outlier_counts_no_more_than_the_limit():
     assert surprise.value == pytest.approx(1 + 24 * (1 - math.exp(-0.2)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("effort", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("truth", [0.9, 0.4])
 def test_practice_rests_at_the_least_squares_share_less_the_effort(truth, effort):

@@ -109,6 +109,7 @@ def test_responsibilities_add_up_even_far_away():
         assert found.covariance[0, 0] > 0
 
 
+@pytest.mark.slow
 def test_a_fit_recovers_a_known_mixture():
     learner = pytest.importorskip("sklearn.mixture")
     rng = np.random.default_rng(8)

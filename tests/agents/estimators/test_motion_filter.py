@@ -129,6 +129,7 @@ def test_gain_and_variance_settle_at_the_riccati_solution(form):
     assert (tracker.state - before) / 0.01 == pytest.approx(gain, rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("form", FORMS)
 def test_innovations_on_its_own_model_are_white_with_the_told_variance(form):
     rng = np.random.default_rng(5)

@@ -28,6 +28,7 @@ def connect(laboratory):
         session.close()
 
 
+@pytest.mark.slow
 def test_a_second_one_is_refused_for_as_long_as_the_first_lives(connect):
     clock, session = MonotonicClock(), connect()
     with claimed(NaoqiArm(connect()), clock):
@@ -44,6 +45,7 @@ def test_a_second_one_is_refused_for_as_long_as_the_first_lives(connect):
     RobotClaim(session).take(clock)
 
 
+@pytest.mark.slow
 def test_a_claim_without_a_heartbeat_is_taken_over_and_its_owner_stops(connect, laboratory):
     clock, old = MonotonicClock(), connect()
     arm = NaoqiArm(old)
@@ -93,6 +95,7 @@ def test_two_who_claim_at_once_are_one(connect):
     assert second.beat() == ""
 
 
+@pytest.mark.slow
 def test_a_claim_that_cannot_be_read_is_waited_for_and_taken_over(connect):
     session = connect()
     session.call("ALMemory", "insertData", KEY, "mine!")

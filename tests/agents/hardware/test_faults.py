@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from colift.agents.hardware.stops import HoldReason, Stop
 
+pytestmark = pytest.mark.slow
+
 AT = 15
 """Step before which the fault comes: the table is on its way up."""
 

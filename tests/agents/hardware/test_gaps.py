@@ -31,6 +31,7 @@ class Slow:
         return np.clip([observation[0] - observation[3]], -0.03, 0.03)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seconds", [0.6, 2.0, 100.0])
 def test_a_gap_stops_the_trial_before_anything_is_sent(play, seconds):
     trial = play("copy", faults={AT: away(seconds)})

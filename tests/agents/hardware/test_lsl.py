@@ -11,6 +11,8 @@ from colift.agents.hardware.lsl import Layout, LslCapture
 from colift.agents.hardware.ports import CaptureLostError
 from colift.base.errors import InputError
 
+pytestmark = pytest.mark.slow
+
 pylsl = pytest.importorskip("pylsl")
 
 

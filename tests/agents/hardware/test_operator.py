@@ -71,6 +71,7 @@ def pressed(*reasons):
     return button
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reasons", [(), ("SIGINT",), ("the Enter key",), ("SIGTSTP",)])
 def test_who_is_at_the_terminal_is_waited_for(keyboard, reasons):
     enter = waited(pressed(*reasons), later=[lambda: time.sleep(1.0) or keyboard.write(b"\n")])
@@ -82,6 +83,7 @@ def test_another_ctrl_c_counts_as_enter(keyboard):
     assert 0.25 < waited(button, later=[lambda: button.press("SIGINT")]) < 0.6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reason", ["SIGHUP", "SIGTERM", "SIGQUIT", "the terminal is gone"])
 def test_a_stop_from_elsewhere_gives_a_stated_time(keyboard, reason):
     assert 0.55 < waited(pressed(reason)) < 5.0
@@ -89,6 +91,7 @@ def test_a_stop_from_elsewhere_gives_a_stated_time(keyboard, reason):
     assert 0.25 < enter < 0.55
 
 
+@pytest.mark.slow
 def test_a_terminal_that_vanishes_meanwhile_gives_a_stated_time(keyboard):
     assert 0.85 < waited(pressed(), later=[keyboard.close]) < 5.0
     assert 0.55 < waited(pressed(), attended=True) < 5.0

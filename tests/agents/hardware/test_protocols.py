@@ -28,6 +28,8 @@ from colift.agents.hardware.trial_end import AfterDuration
 
 from .conftest import PatientSession
 
+pytestmark = pytest.mark.slow
+
 AT = 6
 """Step before which the fault comes."""
 

@@ -20,6 +20,7 @@ def played_again(trial, path, policy):
     return back, rerun_trial(back, policy)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fault",
     [

@@ -3,11 +3,14 @@
 import time
 from contextlib import closing
 
+import pytest
 from colift.agents.hardware.claim import BEAT, NOBODY, STALE, RobotClaim, holder
 from colift.agents.hardware.nao.naoqi import NaoqiArm
 from colift.agents.hardware.watchdog import watch
 
 from .conftest import PatientSession
+
+pytestmark = pytest.mark.slow
 
 
 class Until:

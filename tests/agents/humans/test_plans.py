@@ -35,6 +35,7 @@ def derivatives(plan):
     return velocity, np.diff(velocity) / FRAME
 
 
+@pytest.mark.slow
 @every_behaviour
 def test_goals_fit_the_arm_for_everyone(behaviour):
     names = list(SUBJECTS.values())

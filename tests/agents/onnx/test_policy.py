@@ -246,6 +246,7 @@ def test_without_the_extra_it_is_named(tmp_path, monkeypatch, library):
         open_submission(folder)
 
 
+@pytest.mark.slow
 def test_a_small_file_that_takes_much_memory_harms_nobody(tmp_path):
     """Empty entries take a hundred times as much memory as they have bytes."""
     folder = write_network(tmp_path / "net", proportional())

@@ -28,6 +28,8 @@ from .hostile.secrets import SECRETS
 from .hostile.state import STATE
 from .hostile.time import TIME
 
+pytestmark = pytest.mark.slow
+
 RESTRICTED = [*TIME, *RESOURCES, *ENDS, *SECRETS, *OTHERS, *STATE, *KEPT, *INSIDE, *GATE]
 """What the restrictions must contain."""
 

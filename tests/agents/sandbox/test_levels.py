@@ -14,6 +14,8 @@ from colift.agents.sandbox.host.process import command
 from colift.agents.submissions.new import write_template
 from colift.base.errors import EvaluatorFault, InputError, PolicyError
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def _unknown():

@@ -37,6 +37,7 @@ def test_a_lift_of_ten_seconds_may_take_one_minute():
     assert LIMITS.cpu_seconds == 60
 
 
+@pytest.mark.slow
 def test_the_sandbox_is_given_the_period_of_the_scenario(tmp_path):
     """Steps of 0.2 s are too long at 20 ms a step, and no trouble at 500 ms."""
     (tmp_path / "slow.py").write_text(

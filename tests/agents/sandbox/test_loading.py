@@ -16,6 +16,8 @@ from colift.benchmark.suites.suite import make_suite
 
 from .keeping import COUNTING
 
+pytestmark = pytest.mark.slow
+
 POLICY = """
 import os, time
 

@@ -136,6 +136,7 @@ def _groups():
         pytest.skip(f"this process may make no control group: {error}")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_groups")
 def test_the_memory_that_a_lift_takes_is_not_that_of_files(tmp_path, each_level):
     """Files, a lift and the sandbox need more than its control group has together."""

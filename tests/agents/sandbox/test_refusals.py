@@ -56,6 +56,7 @@ def test_a_reason_of_several_levels_is_told_once():
     assert told == "isolation limits; bubblewrap does not work here: no room; nor does landlock"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("walls", "cure"),
     [

@@ -1,5 +1,6 @@
 """What a sandboxed policy sees of the file system."""
 
+import pytest
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.sandbox.host.view import View
 from colift.benchmark.execution.batches import play
@@ -22,6 +23,7 @@ def test_what_is_hidden_within_something_hidden_does_not_show_the_rest_of_it(tmp
     assert set(view.visible()) == {tmp_path / "site" / "numpy", agents / "agent.py"}
 
 
+@pytest.mark.slow
 def test_a_submission_can_begin_from_every_policy_of_colift(tmp_path):
     """They need nothing that is hidden, of people or of the benchmark."""
     (tmp_path / "all.py").write_text(

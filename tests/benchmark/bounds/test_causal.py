@@ -15,6 +15,8 @@ from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks import rehearsal
 from colift.benchmark.tasks.level.task import Level
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_bound_is_an_agent_of_its_own_weights():
     spec = CausalBound()

@@ -46,6 +46,7 @@ class TestPettingZoo:
         made.close()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("partner", PARTNERS)
 def test_render(partner, monkeypatch):
     """Headless: the window is left out, and the log says so."""

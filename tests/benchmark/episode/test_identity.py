@@ -27,6 +27,8 @@ from colift.benchmark.execution.provenance import PLAYS
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.task import Level
 
+pytestmark = pytest.mark.slow
+
 LOOSE = (
     *("agents.actions", "agents.agent"),
     *("agents.tasks.ball.facts", "agents.tasks.agree.belief", "agents.tasks.intent.pose_filter"),

@@ -33,6 +33,7 @@ def bits(episode):
     return pickle.dumps((trace, episode.scores, episode.failure))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("task", ["level", "ball"])
 @pytest.mark.parametrize("partner", ["nao", "human"])
 def test_each_lift_has_the_bits_of_a_world_of_its_own(partner, task):

@@ -26,6 +26,8 @@ from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.profiling.loopback import loopback_cluster
 from colift.benchmark.suites.suite import make_suite
 
+pytestmark = pytest.mark.slow
+
 distributed = pytest.importorskip("distributed", reason="needs Dask: uv sync --all-extras")
 
 SUITE = make_suite("quick-v1").with_seeds(0, 1)
@@ -107,7 +109,6 @@ def told(run):
     return [(e.trace.digest(), repr(table_row(e, run.suite.metrics)), e.log) for e in run.episodes]
 
 
-@pytest.mark.slow
 def test_the_cluster_gives_the_same_bits(alone, cluster):
     run = run_suite(COPY, SUITE, executor=cluster)
     assert (told(run), run.faults, run.isolation) == (told(alone), 0, "none")
@@ -115,7 +116,6 @@ def test_the_cluster_gives_the_same_bits(alone, cluster):
     assert cluster.idle_threads == 0
 
 
-@pytest.mark.slow
 def test_the_cluster_gives_the_same_bits_in_the_sandbox(alone, cluster):
     run = run_suite(SANDBOXED, SUITE, executor=cluster)
     assert (told(run), run.faults, run.isolation) == (told(alone), 0, strongest())
@@ -128,7 +128,6 @@ def test_the_local_pool_gives_the_same_bits(alone, spec, jobs):
     assert (told(run), run.faults) == (told(alone), 0)
 
 
-@pytest.mark.slow
 def test_a_submission_with_many_weights_gives_the_same_bits(cluster, tmp_path):
     write_template(tmp_path / "heavy")
     (tmp_path / "heavy" / "weights.bin").write_bytes(os.urandom(20_000_000))
@@ -137,7 +136,6 @@ def test_a_submission_with_many_weights_gives_the_same_bits(cluster, tmp_path):
     assert (told(run), run.faults) == (told(run_suite(spec, SUITE)), 0)
 
 
-@pytest.mark.slow
 def test_a_worker_that_dies_in_an_episode_changes_nothing_but_the_count(alone, cluster, tmp_path):
     path = tmp_path / "dying.py"
     path.write_text(DYING.format(once=str(tmp_path / "once")))
@@ -146,7 +144,6 @@ def test_a_worker_that_dies_in_an_episode_changes_nothing_but_the_count(alone, c
     assert run.faults >= 1
 
 
-@pytest.mark.slow
 def test_all_workers_may_be_killed_in_mid_run(cluster, dask_address):
     with distributed.Client(dask_address, set_as_default=False) as client:
         pids = list(client.run(os.getpid).values())
@@ -161,7 +158,6 @@ def test_all_workers_may_be_killed_in_mid_run(cluster, dask_address):
     assert run.faults >= 1
 
 
-@pytest.mark.slow
 def test_a_cluster_that_stays_without_workers_ends_the_run(bare_address, monkeypatch):
     monkeypatch.setattr(cluster_module, "LONELY_SECONDS", 0.5)
     with (
@@ -172,7 +168,6 @@ def test_a_cluster_that_stays_without_workers_ends_the_run(bare_address, monkeyp
         run_suite(packaged(COPY), LONGER, executor=connected, progress=lambda _: process.kill())
 
 
-@pytest.mark.slow
 def test_a_lost_scheduler_ends_the_run():
     with loopback_cluster(1) as address, dask_pool(address) as connected:
         with distributed.Client(address, set_as_default=False) as client:
@@ -186,7 +181,6 @@ def test_a_lost_scheduler_ends_the_run():
             )
 
 
-@pytest.mark.slow
 def test_a_scheduler_without_workers_is_refused_and_the_way_out_is_told(bare_address, monkeypatch):
     monkeypatch.setattr(connecting, "CONNECT_SECONDS", 1.0)
     told = f"has no worker; start some: dask worker {bare_address} --nworkers auto --nthreads 1"
@@ -194,7 +188,6 @@ def test_a_scheduler_without_workers_is_refused_and_the_way_out_is_told(bare_add
         pass
 
 
-@pytest.mark.slow
 def test_a_worker_with_another_colift_is_refused(bare_address, another_colift):
     with (
         worker(bare_address, path=[another_colift]),
@@ -206,7 +199,6 @@ def test_a_worker_with_another_colift_is_refused(bare_address, another_colift):
         pass
 
 
-@pytest.mark.slow
 def test_a_worker_without_colift_is_refused(bare_address):
     with (
         worker(bare_address, code=WITHOUT_COLIFT),
@@ -216,7 +208,6 @@ def test_a_worker_without_colift_is_refused(bare_address):
         pass
 
 
-@pytest.mark.slow
 def test_idle_threads_are_counted_and_the_address_of_a_worker_is_refused(bare_address):
     with worker(bare_address, "--nthreads", "3"), dask_pool(bare_address) as connected:
         assert connected.idle_threads == 2

@@ -92,6 +92,7 @@ def test_a_fault_that_stays_ends_the_run_and_charges_nobody(failing, pool, finis
     assert len(kept) == finished
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fails", [FAULT, KILLED, "os._exit(0)"])
 def test_whatever_ends_a_worker_changes_nothing_but_the_count(failing, undisturbed, fails):
     with process_pool(1) as pool:

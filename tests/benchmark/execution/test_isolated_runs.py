@@ -90,6 +90,7 @@ def two_workers():
         yield pool
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2])
 @pytest.mark.parametrize("form", ["folder", "file"])
 def test_a_run_is_bit_identical_in_every_sandbox(

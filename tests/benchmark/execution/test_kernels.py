@@ -10,6 +10,8 @@ import pytest
 from colift.agents.sandbox.host.levels import working_levels
 from colift.benchmark.execution.provenance import fingerprint
 
+pytestmark = pytest.mark.slow
+
 FOUND = " ".join(np.show_config(mode="dicts")["SIMD Extensions"].get("found", ()))
 
 KERNELS = {
@@ -142,7 +144,6 @@ def folder(tmp_path):
 
 
 @pytest.mark.parametrize("kernel", [*KERNELS, "libm"])
-@pytest.mark.slow
 def test_a_policy_has_the_same_bits_in_a_sandbox(folder, kernel):
     found = said(FOREIGN, str(folder), *working_levels(), **KERNELS.get(kernel, LIBM))
     assert all(digests == found["none"] for digests in found.values())
@@ -164,7 +165,6 @@ def command(folder, *arguments, **environment):
     not fingerprint()["linear_algebra"].startswith("openblas"), reason="NumPy has another BLAS"
 )
 @pytest.mark.parametrize(("policy", "there"), [("copy", True), ("mixed/policy.py:Policy", False)])
-@pytest.mark.slow
 def test_a_bundle_is_verified_with_another_kernel_to_the_bit(folder, policy, there):
     kernel = {"OPENBLAS_CORETYPE": "Prescott"}
     one, other = (kernel, {}) if there else ({}, kernel)

@@ -97,6 +97,7 @@ def test_a_file_travels_with_its_policy(file, tmp_path):
     assert elsewhere(policy, tmp_path) == wanted
 
 
+@pytest.mark.slow
 def test_a_submission_travels_whole_and_is_isolated_as_it_was(submission, tmp_path):
     spec = submission.sandboxed(None)
     wanted, policy = here(spec), packaged(spec)
@@ -111,6 +112,7 @@ def test_a_trusted_submission_travels_too(submission, tmp_path):
     assert elsewhere(packaged(spec), tmp_path) == here(spec)
 
 
+@pytest.mark.slow
 def test_a_sandboxed_module_is_found_over_there(tmp_path):
     spec = SandboxedPolicy(
         name="copy", origin="colift.agents.policies.copy:Copy", source_digest="d"

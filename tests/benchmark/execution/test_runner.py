@@ -39,6 +39,7 @@ def test_episodes_come_in_the_order_of_the_suite(alone):
     assert alone.complete
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("jobs", [1, 2, 3])
 def test_any_number_of_workers_gives_the_same_bits(alone, jobs):
     context = multiprocessing.get_context("forkserver")

@@ -90,6 +90,7 @@ def test_nothing_of_it_stays_in_the_folder_of_temporary_files(monkeypatch, tmp_p
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_a_long_run_takes_little_more_memory_than_a_short_one(whole, tmp_path, monkeypatch):
     monkeypatch.setattr(shelf, "IN_MEMORY", 4)
     peaks, sizes = [], []

@@ -50,6 +50,7 @@ def figures(root):
     return read_figures(root / FOLDER)
 
 
+@pytest.mark.slow
 def test_a_figure_is_due_until_it_is_made_and_then_differs_only_if_it_changed(root, figures):
     assert statuses(root)["subjects"].reasons == ("never made",)
     assert remake(root, figures["subjects"]) == ["subjects.txt: new"]
@@ -68,6 +69,7 @@ def test_a_figure_is_due_until_it_is_made_and_then_differs_only_if_it_changed(ro
     assert not statuses(root)["subjects"].due
 
 
+@pytest.mark.slow
 def test_a_command_makes_text_and_pictures(root, figures):
     assert remake(root, figures["lift"]) == ["lift.txt: new", "lift.png: new"]
     folder = root / FOLDER

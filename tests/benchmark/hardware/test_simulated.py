@@ -60,6 +60,7 @@ def lift(made, policy, number):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("policy", ["blend", "reactive", "task_model"])
 def test_the_error_is_that_of_pure_simulation(session, policy):
     made, _ = session()

@@ -36,6 +36,7 @@ def test_the_fit_was_close():
     assert fit["rmse_human_human_mm"] == pytest.approx(6.531, abs=0.1)
 
 
+@pytest.mark.slow
 def test_table_one_holds_on_seeds_that_the_fit_has_not_seen():
     """12 lifts a subject here; ``colift paper --seeds`` does it with as many as you like."""
     suite = make_suite("paper-v1").with_seeds(7000, 7012)

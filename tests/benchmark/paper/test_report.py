@@ -130,6 +130,7 @@ def test_figure_7_has_all_six_factors(made):
     assert names == [f"confidence_phi_{phi}" for phi in FACTORS]
 
 
+@pytest.mark.slow
 def test_the_same_evidence_gives_the_same_files(made, tmp_path):
     write_report(make_report(made.evidence), tmp_path)
     for path in tmp_path.iterdir():

@@ -18,6 +18,7 @@ def test_the_step_of_the_ball_is_finer_than_the_usual_one(policy):
     assert fine.worst_error < min(0.01, usual.worst_error)
 
 
+@pytest.mark.slow
 def test_another_physics_is_what_is_played():
     suite = make_suite("intent-v1")
     one = dataclasses.replace(suite, scenarios=suite.scenarios[:1])

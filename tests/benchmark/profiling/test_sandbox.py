@@ -50,6 +50,7 @@ class Spec:
         yield Still(self._step)
 
 
+@pytest.mark.slow
 def test_the_cost_is_what_one_takes_more_than_the_other() -> None:
     done: list[int] = []
     slow, quick = Spec(start=0.1, step=0.004), Spec(start=0.0, step=0.0)
@@ -73,6 +74,7 @@ def _no_sandbox_left() -> Iterator[None]:
     close_sandboxes()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("_no_sandbox_left")
 def test_every_way_that_works_here_is_measured_and_costs_something() -> None:
     with isolated() as (plain, ways):

@@ -98,15 +98,15 @@ def test_a_robot_without_a_picture_is_replaced_by_words() -> None:
         None,
     ]
     pictures = {}
-    for name in ("nao", "crane", "derrick"):
+    for name in ("nao", "winch", "derrick"):
         scene = Scene(name)
         scene.pose(0.1, 0.0)
         pictures[name] = scene.picture(320, 200)
         scene.close()
     robot = (slice(60, 140), slice(0, 120))
-    assert not np.array_equal(pictures["nao"][robot], pictures["crane"][robot])
+    assert not np.array_equal(pictures["nao"][robot], pictures["winch"][robot])
     # The names differ, and so do the words; all else is the same.
-    words = (pictures["crane"] != pictures["derrick"]).any(axis=-1)
+    words = (pictures["winch"] != pictures["derrick"]).any(axis=-1)
     assert 0 < words.sum() < 1000
 
 
@@ -153,6 +153,7 @@ def play(env: ParallelLift, *, rendered: bool) -> str:
     return digest
 
 
+@pytest.mark.slow
 def test_looking_does_not_change_the_lift() -> None:
     unseen = play(parallel_env(control_period=0.5), rendered=False)
     seen = play(parallel_env(control_period=0.5, render_mode="rgb_array"), rendered=True)

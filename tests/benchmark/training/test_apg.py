@@ -6,6 +6,8 @@ import pytest
 from colift.base.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
+pytestmark = pytest.mark.slow
+
 
 def test_training(in_own_process):
     modules = ("jax_apg.py", "jax_touch.py", "jax_pairs.py")

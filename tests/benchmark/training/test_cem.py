@@ -44,6 +44,7 @@ def trained(tmp_path_factory):
     return course
 
 
+@pytest.mark.slow
 def test_the_weights_are_the_same_with_workers_and_others_with_another_seed(trained, tmp_path):
     again = open_course(tmp_path, "cem", TINY, 0)
     with process_pool(2) as pool:
@@ -85,6 +86,7 @@ def test_the_first_distribution_extrapolates_and_the_errors_are_the_benchmark_s(
     lift.close()
 
 
+@pytest.mark.slow
 def test_the_best_candidates_lead(tmp_path):
     """With candidates that are hardly better than chance, the error would not fall."""
     settings = CemSettings(generations=3, population=12, elite=3, lifts=2, steps=2, hidden=1)

@@ -2,6 +2,9 @@
 
 from pathlib import Path
 
+import pytest
 
+
+@pytest.mark.slow
 def test_learning_from_data(in_own_process):
     in_own_process(Path(__file__).with_name("jax_offline.py"))

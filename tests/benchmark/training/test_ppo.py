@@ -9,6 +9,8 @@ import pytest
 from colift.base.errors import InputError
 from colift.benchmark.training.ppo_settings import CoPlaySettings, SelfPlaySettings
 
+pytestmark = pytest.mark.slow
+
 
 def test_training(in_own_process):
     modules = ("jax_ppo.py", "jax_self_play.py", "jax_co_play.py")

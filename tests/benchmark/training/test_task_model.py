@@ -109,6 +109,7 @@ def test_learning_twice_gives_the_same_bytes(lifts, learned):
     assert again.provenance["fit"]["samples"] == sum(len(each.times) - COMING for each in lifts)
 
 
+@pytest.mark.slow
 def test_practice_learns_the_arm_and_keeps_the_model():
     """From nothing fed forward it finds the arm's lag and sag again, and the stiffness."""
     task = load_task()

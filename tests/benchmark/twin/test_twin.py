@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 from colift.benchmark.twin import libraries
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent
 
 

@@ -12,6 +12,7 @@ from .forging import SUITE, edit_arrays, first_row, flip, mend, refused, rewrite
 
 
 class TestActions:
+    @pytest.mark.slow
     @pytest.mark.parametrize("place", [0, 5])
     @pytest.mark.parametrize("name", ["action", "human_action"])
     def test_one_bit_of_one_action_is_found_with_its_step(self, bundle, name, place):
@@ -23,6 +24,7 @@ class TestActions:
         message = refused(bundle, file="traces.npz", episode=episode, step=17)
         assert ("human's action" in message) == (name == "human_action")
 
+    @pytest.mark.slow
     @pytest.mark.parametrize(
         "name", ["human_end", "robot_end", "human_velocity", "human_force", "robot_force", "target"]
     )

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
@@ -17,6 +18,7 @@ def test_of_a_large_suite_two_lifts_of_each_behaviour_are_checked_with_different
     assert check_part(quick) is quick
 
 
+@pytest.mark.slow
 def test_a_policy_is_checked_on_the_task_of_the_suite_that_it_is_for():
     spec = PolicySpec(text="pose_wrist")
     whole = make_suite("intent-v1")

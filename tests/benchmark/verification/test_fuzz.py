@@ -83,6 +83,7 @@ def test_changed_bytes(tmp_path, files, name, mended):
         assert_refused_or_harmless(tmp_path, files, {name: bytes(data)}, mended=mended)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["results.json", "manifest.json"])
 def test_values_of_another_kind(tmp_path, files, name):
     rng = np.random.default_rng(FILES.index(name))

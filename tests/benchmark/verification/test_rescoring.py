@@ -51,6 +51,7 @@ class TestScoring:
         assert refused(bundle, episode="smooth/S1 seed 3", step=5)
         assert not verify(bundle).rescorable
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("scoring", [SCORING - 1, SCORING + 1])
     @pytest.mark.parametrize("name", ["copy", "giving"])
     def test_scores_of_other_metrics_are_computed_again(self, made, tmp_path, name, scoring):

@@ -31,6 +31,7 @@ KEEPERS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keeper", KEEPERS)
 def test_what_does_not_follow_from_the_lift_alone_is_found(tmp_path, keeper):
     source, found = KEEPERS[keeper]

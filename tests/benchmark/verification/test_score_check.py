@@ -31,6 +31,7 @@ class TestScores:
         message = refused(bundle, file="episodes.csv", episode="jerky/S3 seed 3")
         assert message.startswith("sparc says")
 
+    @pytest.mark.slow
     @pytest.mark.parametrize(
         ("path", "value"),
         [

@@ -65,6 +65,7 @@ class TestOtherPlatform:
             actions = [f for f in verify(bundle).findings if "human's action" in f.message]
             assert actions == []
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("value", [1e308, -1e308, 1.0])
     @pytest.mark.parametrize("name", ["human_force", "human_velocity", "human_end"])
     def test_forged_series_are_refused_whatever_they_are(self, bundle, name, value):
@@ -81,6 +82,7 @@ class TestOtherPlatform:
         assert verdict.tolerance_mm is None
         assert verdict.other_platform
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("name", ["vectors", "linear_algebra", "vector_extensions"])
     def test_what_only_policies_use_gives_no_tolerance(self, bundle, name):
         edit_json(bundle, "manifest.json", lambda m: m["platform"].update({name: "another"}))

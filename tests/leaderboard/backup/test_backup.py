@@ -35,6 +35,8 @@ from ..rows import add, digest
 from ..signed import write_signed
 from .damage import damaged, packed, table_changed, unpacked
 
+pytestmark = pytest.mark.slow
+
 MUTATIONS = int(os.environ.get("COLIFT_TEST_MUTATIONS", "20"))
 
 

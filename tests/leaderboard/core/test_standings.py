@@ -202,6 +202,7 @@ def test_the_number_of_queries_does_not_grow_with_the_entries(board):
     assert counts[0] == counts[1]
 
 
+@pytest.mark.slow
 def test_the_last_of_very_many_can_still_be_told_from_the_first(board):
     for number in range(600):
         add(board, f"policy {number}", 10.0 if number else 5.0, episodes=60)

@@ -22,6 +22,7 @@ def board(open_board, tiny_suite):
     return open_board(suite="tiny")
 
 
+@pytest.mark.slow
 def test_an_own_policy_becomes_a_verified_row(board):
     queue = Queue(board)
     job = queue.enqueue_builtin(builtin_entrant("copy"))

@@ -26,6 +26,8 @@ from colift.leaderboard.records.row import BoardRow
 
 from ..conftest import make_entrant, make_season
 
+pytestmark = pytest.mark.slow
+
 counter = itertools.count()
 
 

@@ -11,6 +11,8 @@ from ...browser import violations
 from ..signed import write_signed
 from .boards import digest
 
+pytestmark = pytest.mark.slow
+
 PAGES = (
     "/",
     "/seasons/2025",

@@ -64,6 +64,7 @@ def folder(added, tmp_path):
     return tmp_path / "board"
 
 
+@pytest.mark.slow
 def test_it_is_in_every_file_answer_and_page(folder, colift):
     board = Board.look(folder)
     bundle = board.bundle("2026", digest("copy"))

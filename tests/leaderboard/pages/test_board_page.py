@@ -4,6 +4,7 @@ import csv
 import io
 import json
 
+import pytest
 from colift.benchmark.bundle.files import RESULTS
 from colift.benchmark.results.baselines import shipped_bounds
 from colift.benchmark.suites.suite import make_suite
@@ -11,6 +12,8 @@ from colift.leaderboard.core.board import Board
 from playwright.sync_api import expect
 
 from .conftest import running
+
+pytestmark = pytest.mark.slow
 
 
 def numbers(page, column):

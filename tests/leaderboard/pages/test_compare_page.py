@@ -4,6 +4,7 @@ import csv
 import io
 from dataclasses import replace
 
+import pytest
 from colift.benchmark.statistics import paired_difference
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.replays.chosen import replays_of
@@ -49,6 +50,7 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played, folder):
     )
 
 
+@pytest.mark.slow
 def test_four_are_enough_and_one_is_too_few(page, front):
     page.goto(front)
     boxes = page.locator("input[name=p]")
@@ -122,6 +124,7 @@ def test_the_same_lift_is_drawn_with_both_where_there_are_replays(page, url, fol
     expect(page.locator("#same figcaption")).to_contain_text("copy solid, blend dotted")
 
 
+@pytest.mark.slow
 def test_the_scatter_has_the_size_of_a_picture_and_a_phone_shows_all_numbers_of_a_pair(page, front):
     page.goto(front)
     page.get_by_role("link", name="Compare", exact=True).click()

@@ -56,6 +56,7 @@ def folder(played, newer, tmp_path):
     return tmp_path / "board"
 
 
+@pytest.mark.slow
 def test_every_page_and_file_shows_the_row_without_the_newer_metric(folder, newer):
     copy, blend = digest("copy"), digest("blend")
     with running(folder) as url, httpx.Client(base_url=url, timeout=60) as client:

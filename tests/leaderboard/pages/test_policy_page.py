@@ -48,6 +48,7 @@ def test_the_worst_lift_of_each_behaviour_leads_to_its_replay(policy, played):
     expect(page.get_by_role("button", name="worst")).to_have_attribute("aria-pressed", "true")
 
 
+@pytest.mark.slow
 def test_it_is_compared_with_its_neighbours_in_the_table(policy, front, folder):
     board = Board.open(folder)
     names = [each.row.name for each in board.standings() if each.ranked]

@@ -26,6 +26,8 @@ from playwright.sync_api import expect
 from ..rows import digest, make_entry, make_errors
 from .conftest import opened_page, running
 
+pytestmark = pytest.mark.slow
+
 MANY = 1000
 FEW = 230
 

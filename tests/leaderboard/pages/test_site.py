@@ -53,6 +53,7 @@ def test_files_take_no_submissions(page, site):
     assert page.locator("form").count() == 0
 
 
+@pytest.mark.slow
 def test_an_older_site_is_replaced_and_nothing_else(folder, tmp_path):
     board = Board.open(folder)
     (tmp_path / "thesis").mkdir()

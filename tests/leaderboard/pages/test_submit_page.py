@@ -15,6 +15,8 @@ from playwright.sync_api import expect
 from ..signed import write_signed
 from .conftest import running
 
+pytestmark = pytest.mark.slow
+
 FAULTY = """
 class Policy:
     def reset(self, seed):

@@ -84,6 +84,7 @@ def test_who_ends_says_so(submit, queue, work):
     assert told(queue, job) is None
 
 
+@pytest.mark.slow
 def test_a_worker_of_this_machine_that_was_killed_is_missed_at_once(submit, queue, work):
     ask = "from colift.leaderboard.queue.jobs import this_worker; print(this_worker())"
     told_by = subprocess.run(

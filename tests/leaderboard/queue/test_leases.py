@@ -54,6 +54,7 @@ def test_a_job_whose_worker_is_silent_for_a_lease_is_anothers(submit, queue, clo
     assert queue.job(first.id).state == "done"
 
 
+@pytest.mark.slow
 def test_a_worker_of_this_machine_that_is_gone_is_not_waited_for(submit, queue, work):
     submit()
     ask = "from colift.leaderboard.queue.jobs import this_worker; print(this_worker())"

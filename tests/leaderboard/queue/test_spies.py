@@ -17,6 +17,8 @@ from colift.leaderboard.database.queries import read_error_numbers, read_errors
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from colift.leaderboard.queue.worker import Worker
 
+pytestmark = pytest.mark.slow
+
 SLOTS, BITS, APART = 16, 24, 1 << 16
 """Lifts that are told apart, bits of each (of its observation, and a sum), bytes between marks."""
 SIZE = (SLOTS * BITS + 8) * APART

@@ -3,6 +3,7 @@
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
 from colift.leaderboard.queue import (
     Queue,
     Quota,
@@ -80,6 +81,7 @@ def test_the_oldest_comes_first(submit, queue, clock, work):
     assert queue.jobs("queued") == ()
 
 
+@pytest.mark.slow
 def test_each_of_many_is_queued_once_and_taken_once_whoever_asks(board, write_submission, work):
     """Twenty submitters, each with its ten in five threads; then eight workers."""
     limit = Quota(open=8)

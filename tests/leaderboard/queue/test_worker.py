@@ -18,6 +18,8 @@ from colift.leaderboard.queue.worker import Worker
 from colift.leaderboard.storage.store import Store
 from colift.leaderboard.views.job import STAGES
 
+pytestmark = pytest.mark.slow
+
 REFUSED = """
 import os
 

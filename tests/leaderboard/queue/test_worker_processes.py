@@ -21,6 +21,8 @@ from colift.leaderboard.views.job import STAGES
 from .. import tiny
 from ..postgresql import SETTINGS, as_its_user, binaries, server
 
+pytestmark = pytest.mark.slow
+
 KILLS = int(os.environ.get("COLIFT_TEST_KILLS", "2"))
 
 
@@ -80,7 +82,6 @@ def nameless(row):
     return dataclasses.replace(row, public=public, hidden=hidden, name="", submission="")
 
 
-@pytest.mark.slow
 def test_workers_that_are_killed_lose_nothing(real_board, write_submission, start):
     """They are killed at work, in any stage of it."""
     board, queue = real_board, Queue(real_board)
@@ -138,7 +139,6 @@ def test_a_worker_that_is_asked_to_end_gives_its_job_back(
 
 
 @pytest.mark.usefixtures("postgresql")  # To be skipped where there is none.
-@pytest.mark.slow
 def test_a_worker_waits_for_a_database_that_is_away_at_its_start(
     tmp_path, tiny_suite, write_submission
 ):

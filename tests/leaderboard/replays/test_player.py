@@ -13,6 +13,8 @@ from colift.leaderboard.replays.html import replay_page, script_json
 from colift.leaderboard.replays.replay import play_ghost, replay_content
 from playwright.sync_api import expect
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def file(bundle, tmp_path_factory) -> Path:

@@ -16,6 +16,7 @@ from colift.leaderboard.database.connection import Database
 from ..postgresql import SETTINGS, as_its_user, binaries, server
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("postgresql")  # To be skipped where there is none.
 def test_a_server_that_stops_is_told_as_503_and_comes_back_without_a_restart(
     tmp_path, serving, zipped, monkeypatch

@@ -98,6 +98,7 @@ def temporary(process="self"):
     return [link for link in links if link.endswith("(deleted)") and "/memfd" not in link]
 
 
+@pytest.mark.slow
 def test_clients_that_do_not_read_take_no_files_and_few_places(folder, serving, place, monkeypatch):
     (path := Store(folder).packed_bundle("1", place.split("/")[-2]))
     assert path.stat().st_size > 10_000

@@ -21,6 +21,8 @@ from colift.leaderboard.views.job import STAGES
 
 from ..tiny import ENTRY
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 KILLS = int(os.environ.get("COLIFT_TEST_KILLS", "2"))
 SUBMISSIONS = 1 + KILLS // 5
@@ -125,7 +127,6 @@ def expected(folder, tmp_path, opening, zipped):
     return rows
 
 
-@pytest.mark.slow
 def test_every_accepted_submission_gets_the_row_that_it_gets_undisturbed(
     folder, serve, expected, ada, zipped, opening
 ):

@@ -21,6 +21,7 @@ def headers(add_token):
     ]
 
 
+@pytest.mark.slow
 def test_each_of_200_uploads_is_taken_once_or_refused_with_the_reason(
     folder, serving, opening, headers, zipped
 ):

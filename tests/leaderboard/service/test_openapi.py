@@ -48,6 +48,7 @@ def test_every_parameter_says_what_it_is(client):
     assert silent == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("operation", "mode"),
     [

@@ -11,6 +11,8 @@ import pytest
 import schemathesis
 from colift.benchmark.verification import verify
 
+pytestmark = pytest.mark.slow
+
 SUBMIT = "/api/v1/submissions"
 
 

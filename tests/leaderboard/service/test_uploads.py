@@ -171,6 +171,7 @@ def test_a_name_that_means_something_elsewhere_is_refused(client, ada, zipped, n
     assert "policy.toml: name must" in answer.json()["error"]
 
 
+@pytest.mark.slow
 def test_much_that_is_packed_well_in_many_files_is_refused(client, folder, ada):
     before = sorted(folder.rglob("*"))
     many = packed(*((f"f{i}", bytes(16 * 2**20)) for i in range(15)))

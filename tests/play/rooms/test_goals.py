@@ -80,6 +80,7 @@ def staying_up(cue):
     return lambda time: honest(time) if time < cue.cues()[1].frame / 100 else goal
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("partner", PARTNERS)
 @pytest.mark.parametrize("hand", [nobody, jumping, touching, short, beyond, staying_up])
 def test_a_missed_goal_makes_a_lift_void(table, tmp_path, hand, partner):
@@ -96,6 +97,7 @@ def test_a_missed_goal_makes_a_lift_void(table, tmp_path, hand, partner):
         played_suite(tmp_path / "session")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("partner", PARTNERS)
 def test_a_void_lift_is_repeated_with_the_same_goals_and_can_count(table, partner):
     void = lifted(table, nobody, partner)

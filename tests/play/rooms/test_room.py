@@ -307,6 +307,7 @@ def arrived_earlier(arrays):
     arrays["human_frames"][200:] -= 5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("forge", [flipped, dropped, invented, reordered, arrived_earlier])
 def test_a_forged_sample_is_found_though_all_hashes_fit(table, tmp_path, forge):
     end = lifted(table)

@@ -9,6 +9,8 @@ from playwright.sync_api import expect
 
 from .browsing import WAIT_MS, enter, wait_for, wait_for_phase, wait_until_ready
 
+pytestmark = pytest.mark.slow
+
 TOLD = """
     window.told = [];
     const note = () => {

@@ -19,6 +19,8 @@ from .browsing import (
 )
 from .pages import playing
 
+pytestmark = pytest.mark.slow
+
 HIDE = """
     Object.defineProperty(document, "hidden", { value: true, configurable: true });
     document.dispatchEvent(new Event("visibilitychange"));

@@ -18,6 +18,8 @@ from .browsing import (
 )
 from .network import Network
 
+pytestmark = pytest.mark.slow
+
 HIGHEST = 0.38
 """The end of the hand's range [m], as in ``hand.js``."""
 

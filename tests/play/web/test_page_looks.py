@@ -10,6 +10,8 @@ from playwright.sync_api import expect
 from ...browser import violations
 from .browsing import WAIT_MS, enter, wait_for, wait_for_phase
 
+pytestmark = pytest.mark.slow
+
 SCREENS = {
     "desktop": {"viewport": {"width": 1280, "height": 800}},
     "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True},

@@ -11,6 +11,8 @@ from playwright.async_api import Page, async_playwright, expect
 from ...browser import OPTIONS, chromium_path
 from .browsing import WAIT_MS, Hand
 
+pytestmark = pytest.mark.slow
+
 EVERY_S = 0.004
 SPEED = 0.25
 """Of the hand, on its way to each goal [m/s]."""

@@ -3,9 +3,12 @@
 import json
 import re
 
+import pytest
 from playwright.sync_api import expect
 
 from .browsing import WAIT_MS, table, wait_for, wait_for_phase, wait_until_ready
+
+pytestmark = pytest.mark.slow
 
 
 class Heard:

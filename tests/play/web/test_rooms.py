@@ -15,6 +15,8 @@ from colift.play.web.keeper import PlayConfig
 
 from .pages import GRIP, Page, new_session, playing, samples
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def config(tmp_path_factory):

@@ -13,6 +13,8 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from .pages import Page, new_session, open_socket, playing
 
+pytestmark = pytest.mark.slow
+
 HOSTS = frozenset({"127.0.0.1", "localhost"})
 
 

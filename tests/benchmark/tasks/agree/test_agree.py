@@ -30,6 +30,8 @@ from colift.benchmark.tasks.agree.scores import (
 from colift.benchmark.tasks.agree.task import Agree
 from colift.testing import check_suite, check_task
 
+pytestmark = pytest.mark.slow
+
 DIGEST = "a139738ca5010b12"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")

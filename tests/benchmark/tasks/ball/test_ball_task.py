@@ -114,6 +114,7 @@ def test_one_push_and_brake_is_one_peak():
     assert velocity_peaks(np.zeros(300), target)[0] == 0
 
 
+@pytest.mark.slow
 def test_a_level_table_is_not_enough_and_an_oracle_nearly_perfect():
     level = lifted("ball_smooth", policy="anticipate").scores["rmse_mm"]
     with contextlib.closing(Lift(make_scenario("ball_smooth", "S1", task="ball"))) as lift:

@@ -58,6 +58,7 @@ def test_settling_counts_from_the_beginning_to_the_last_frame_outside():
     assert peak_mm(missed, [(0, 30), (100, 130)]) == pytest.approx(10.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("behaviour", ["pivot", "counter"])
 def test_a_level_table_is_wrong_and_an_oracle_nearly_perfect(behaviour):
     level = lifted(behaviour, policy="anticipate").scores["rmse_mm"]
