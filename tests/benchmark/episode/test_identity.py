@@ -40,8 +40,8 @@ ACCEPTANCE = tuple(
     for name in ("artefacts", "copies", "foreign_files", "goals", "recording_file", "treatment")
 )
 """What refuses or describes recordings and live lifts: those that play do not depend on it."""
-NOT_IN_SUITES = ("oracle", "rehearsal")
-"""Modules of tasks that play, as policies do, and decide nothing about a suite."""
+NOT_IN_SUITES = ("oracle", "rehearsal", "suites")
+"""Modules of tasks that play, as policies do, or state suites, whose scenarios and seeds count."""
 AT_IMPORTS = {("colift.registration", "_Awaited")}
 """What is asked at every import, such as a policy's late one, and waits for Gymnasium."""
 LIVE = (humans.Played, humans.Cued, humans.HandLog, humans.PersonAsRobot)
