@@ -72,7 +72,7 @@ class Person(Protocol):
     ) -> Any:
         """Return what a person knows about the task before a step: numbers of the order of 1.
 
-        A person who learns has them as inputs (:mod:`colift.benchmark.training.pairs`).
+        A person who learns has them as inputs (``colift.benchmark.training.pairs``).
         """
 
 

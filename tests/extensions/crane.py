@@ -1,5 +1,6 @@
 """A laboratory's own robot: one module and an entry point."""
 
+import os
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import gettempdir
@@ -69,7 +70,7 @@ class Crane:
 
     def model(self):
         """Return the URDF file of its picture."""
-        path = Path(gettempdir(), "crane.urdf")
+        path = Path(gettempdir(), f"crane-{os.getuid()}.urdf")
         path.write_text(MODEL)
         return path
 
