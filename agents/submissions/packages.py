@@ -20,7 +20,8 @@ PACKAGES: Final[Mapping[str, str]] = {
 All come with colift, except scikit-learn, which comes with the extra ``learn``."""
 
 ALWAYS: Final = frozenset(sys.stdlib_module_names) | {"colift"}
-"""Modules that every policy may import: the standard library and ``colift.agents``."""
+"""Modules that every policy may import: the standard library and colift, of which
+sandboxes have ``colift.base`` and ``colift.agents``."""
 
 SOURCE_BYTES: Final = 2**20
 """Largest source file that is parsed [bytes]: the parser takes 500 times as much memory."""

@@ -73,11 +73,6 @@ def played_lifts(session: Path) -> RealLifts:
     return RealLifts(suite=suite, left_out=left_out)
 
 
-def played_suite(session: Path) -> Suite:
-    """Return the suite of a session's lifts that count; see :func:`played_lifts`."""
-    return played_lifts(session).suite
-
-
 def _reasons(left_out: Mapping[str, str]) -> str:
     """Return why lifts do not count, as the end of a sentence."""
     shown = [f"; {name}: {reason}" for name, reason in left_out.items()][:MOST_REASONS]

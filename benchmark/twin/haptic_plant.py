@@ -9,7 +9,6 @@ from colift.benchmark.episode.sensing import SENSED_FRAMES
 from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.twin.arm import ArmVariation, followed, prepared
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
-from colift.benchmark.twin.lifts import chunk
 from colift.benchmark.twin.plant import Moving, Plant, after_physics_step, plant_at_rest
 from colift.benchmark.twin.rolling import Rolling, pressed_by, rolled, shared_load
 from colift.benchmark.world.table import (
@@ -173,29 +172,3 @@ def advance_haptic_plant(
         frame, (state.plant.moving, state.wrist, ball), (meant, shifts, commands)
     )
     return remembered(state, moving, wrist, felt), ball, places
-
-
-def advance_haptic_step(
-    state: HapticPlant,
-    body: Body,
-    meant: Meant,
-    commands: jax.Array,
-    variation: ArmVariation | None = None,
-) -> tuple[HapticPlant, jax.Array, jax.Array]:
-    """Return the lifts after a step of f frames, and the heights of both ends in these (f, n) [m].
-
-    Parameters
-    ----------
-    state, body, meant, commands, variation
-        As for :func:`advance_haptic_plant`; several frames are made at once.
-    """
-    near, far, size = [], [], len(commands)
-    many = chunk(size)
-    for first in range(0, size, many):
-        frames = slice(first, first + many)
-        some = Meant(*(each[frames] for each in meant))
-        state, _, _ = advance_haptic_plant(state, body, some, commands[frames], variation)
-        heights = state.plant.heights[:many][::-1]
-        near.append(heights)
-        far.append(heights + state.plant.differences[:many][::-1])
-    return state, jnp.concatenate(near), jnp.concatenate(far)

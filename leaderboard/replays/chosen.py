@@ -11,8 +11,6 @@ from colift.benchmark.episode.loop import Episode
 from colift.leaderboard.replays.replay import Ghost, Which, play_ghost, replay_content
 from colift.leaderboard.storage.files import read_json, write_json
 
-WHICH: Final[tuple[Which, ...]] = ("best", "median", "worst")
-
 
 @dataclass(frozen=True, kw_only=True)
 class ReplayChoice:

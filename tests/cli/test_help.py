@@ -5,6 +5,7 @@ import re
 import resource
 import subprocess
 import sys
+from importlib.util import find_spec
 
 import pytest
 import typer
@@ -114,7 +115,8 @@ def test_the_help_and_the_completion_of_run_load_no_engine():
 @pytest.mark.slow
 def test_a_run_loads_neither_robots_nor_live_lifts_nor_trainings():
     found = imported("run", "copy", "--behaviour", "smooth", "--seeds", "0:1", "--jobs", "1")
-    for folder in ("agents.hardware", "benchmark.live", "benchmark.training", "benchmark.twin"):
+    for folder in ("agents.hardware", "benchmark.training", "benchmark.twin", "play"):
+        assert find_spec(f"colift.{folder}")
         assert [name for name in found if name.startswith(f"colift.{folder}")] == []
     assert found & (FULL - {"pybullet"}) == set()
 

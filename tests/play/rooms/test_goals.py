@@ -10,7 +10,7 @@ from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.real_lifts.session_folder import EVENTS, lift_folders
-from colift.benchmark.real_lifts.suites import played_lifts, played_suite
+from colift.benchmark.real_lifts.suites import played_lifts
 from colift.benchmark.results.goals import goal_scores
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.verify import verify
@@ -94,7 +94,7 @@ def test_a_missed_goal_makes_a_lift_void(table, tmp_path, hand, partner):
     assert event["reason"] == end["reason"]
     assert event["goal_errors_mm"][goal] > 20
     with pytest.raises(InputError, match="no lift that counts"):
-        played_suite(tmp_path / "session")
+        played_lifts(tmp_path / "session")
 
 
 @pytest.mark.slow
@@ -145,7 +145,7 @@ def test_an_older_bundle_claims_no_goal_error_and_is_verified(table, tmp_path):
     verdict = verify(folder)
     assert verdict.ok
     assert verdict.results.goals is None
-    assert played_suite(tmp_path / "session").size == 1
+    assert played_lifts(tmp_path / "session").suite.size == 1
 
 
 def test_a_lift_of_an_older_session_in_which_nobody_moved_is_left_out(table, tmp_path, monkeypatch):
@@ -166,7 +166,7 @@ def test_a_lift_of_an_older_session_in_which_nobody_moved_is_left_out(table, tmp
 
 def test_every_policy_on_a_session_has_the_same_goal_errors(table, tmp_path):
     ends = [lifted(table, kind="mixed") for _ in range(2)]
-    suite = played_suite(tmp_path / "session")
+    suite = played_lifts(tmp_path / "session").suite
     scores = goal_scores(suite)
     assert [*scores.lifts.values()] == [end["goal_error_mm"] for end in ends]
     mean = np.mean([*scores.lifts.values()])

@@ -12,7 +12,7 @@ from colift.benchmark.bundle.arrays import dump_arrays
 from colift.benchmark.bundle.json_text import dump_json
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.real_lifts.session_folder import lift_folders
-from colift.benchmark.real_lifts.suites import played_suite
+from colift.benchmark.real_lifts.suites import played_lifts
 from colift.benchmark.suites.suite import recorded_suite
 from colift.benchmark.verification.verify import verify
 from colift.play.rooms.messages import HandSamples, dump_samples, parse_frame
@@ -246,7 +246,7 @@ def test_a_session_is_played_again_by_any_policy_to_the_same_bits(table, tmp_pat
     """The same policy gives the same commands on the logged movement; another one can be asked."""
     end = lifted(table)
     (lift,) = lift_folders(tmp_path / "session")
-    suite = played_suite(tmp_path / "session")
+    suite = played_lifts(tmp_path / "session").suite
     again = run_suite(PolicySpec(text="anticipate"), suite).episodes[0]
     logged = read_bundle(lift).episodes[0]
     assert again.scores == logged.scores
@@ -258,7 +258,7 @@ def test_a_session_is_played_again_by_any_policy_to_the_same_bits(table, tmp_pat
 
 def test_a_run_on_a_session_is_a_bundle_without_the_pointers_samples(table, tmp_path):
     lifted(table)
-    suite = played_suite(tmp_path / "session")
+    suite = played_lifts(tmp_path / "session").suite
     run = run_suite(PolicySpec(text="copy"), suite)
     write_bundle(tmp_path / "bundle", run, results(run, {}).plain())
     assert verify(tmp_path / "bundle").findings == ()

@@ -111,7 +111,7 @@ OTHERS = [
         reset="""
         import colift.agents
         root = os.path.dirname(os.path.dirname(colift.agents.__file__))
-        for place in ("benchmark", "leaderboard", "cli", "agents/humans"):
+        for place in ("benchmark", "leaderboard", "play", "cli", "robots", "agents/humans"):
             try:
                 seen = os.listdir(f"{root}/{place}")
             except OSError:
