@@ -1,9 +1,7 @@
-"""Address and shutdown of commands that serve pages."""
+"""Addresses of commands that serve pages."""
 
 import errno
-import signal
 import socket
-from types import FrameType
 from typing import Annotated, Final
 
 import typer
@@ -18,9 +16,6 @@ Port = Annotated[
 ]
 LOOPBACK: Final = "127.0.0.1"
 """The default address: this machine alone."""
-
-ENDING: Final = (signal.SIGINT, signal.SIGTERM)
-"""Signals that end a service."""
 
 
 def listening_at(host: str, port: int) -> socket.socket:
@@ -48,15 +43,3 @@ def url_of(listener: socket.socket) -> str:
     """Return the address of a listening socket for a browser on this machine."""
     host, port = listener.getsockname()[:2]
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
-
-
-def interrupted_by_signals() -> None:
-    """Let each of the signals of :data:`ENDING` raise KeyboardInterrupt, once."""
-    for number in ENDING:
-        signal.signal(number, _interrupt)
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # A second one would cut short the children's cleanup.
-    raise KeyboardInterrupt

@@ -13,9 +13,10 @@ from colift.base.errors import InputError
 from colift.base.extras import how_to_install
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
 from colift.cli.completion import policies
-from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from colift.cli.listening import LOOPBACK, Host, Port, listening_at, url_of
 from colift.cli.options import PolicyIsolation, RobotName, check_folder
 from colift.cli.partners import FIRST, partners
+from colift.cli.signals import interrupted_once
 from colift.leaderboard.logs import write_log
 
 PORT: Final = 8100
@@ -84,7 +85,7 @@ def play(
         hosts=frozenset() if root or not _is_loopback(host) else HOSTS,
     )
     write_log()
-    interrupted_by_signals()
+    interrupted_once()
     try:
         with listening_at(host, port) as listener:
             address = url_of(listener)

@@ -20,8 +20,9 @@ from colift.cli.board_options import (
     open_patiently,
     opened_board,
 )
-from colift.cli.listening import LOOPBACK, Host, Port, interrupted_by_signals, listening_at, url_of
+from colift.cli.listening import LOOPBACK, Host, Port, listening_at, url_of
 from colift.cli.partners import partners
+from colift.cli.signals import interrupted_once
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.queue import Quota
 
@@ -99,7 +100,7 @@ def serve_board(
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
     command += ["--isolation", isolation]
-    interrupted_by_signals()  # uvicorn raises them again after closing.
+    interrupted_once()  # uvicorn raises them again after closing.
     try:
         with opened_board(board, open_patiently, new=True):
             pass  # Its database server may start at the same time.

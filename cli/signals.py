@@ -1,24 +1,69 @@
 """Ctrl-C and SIGTERM: a command cleans up, and says by its exit code that it was ended."""
 
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
-from typing import Any
+from typing import Any, Final
 
 from colift.cli.loading import Ending
 
 Handler = Callable[[int, FrameType | None], Any] | int
 """A handler of a signal."""
 
+ENDING: Final = (signal.SIGINT, signal.SIGTERM)
+"""Signals that end a command."""
+
+AGAIN: Final = 0.01
+"""Seconds after which a lost interrupt is raised again."""
+
 
 @contextmanager
 def interruptible() -> Iterator[Ending]:
     """Let SIGTERM interrupt the body as Ctrl-C does, so that nothing half-written is left."""
     ending = Ending()
-    with _handled(signal.SIGTERM, signal.SIG_DFL, ending.terminate):
+    with _handled(signal.SIGTERM, signal.SIG_DFL, ending.terminate), _none_lost():
         yield ending
+
+
+def interrupted_once() -> None:
+    """Let the first signal of :data:`ENDING` raise KeyboardInterrupt, and ignore all others.
+
+    A second one would cut short the cleanup.
+    """
+    for number in ENDING:
+        signal.signal(number, _interrupt)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    for each in ENDING:
+        signal.signal(each, signal.SIG_IGN)
+    raise KeyboardInterrupt
+
+
+@contextmanager
+def _none_lost() -> Iterator[None]:
+    """Raise an interrupt again if it came while a finalizer or a callback ran.
+
+    Python prints and drops an exception there: the command would go on.
+    """
+    usual = sys.unraisablehook
+
+    def again(lost: "sys.UnraisableHookArgs") -> None:
+        if not isinstance(lost.exc_value, KeyboardInterrupt):
+            usual(lost)
+            return
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        main = threading.main_thread().ident or 0
+        threading.Timer(AGAIN, signal.pthread_kill, (main, signal.SIGINT)).start()
+
+    sys.unraisablehook = again
+    try:
+        yield
+    finally:
+        sys.unraisablehook = usual
 
 
 @contextmanager

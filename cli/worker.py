@@ -1,8 +1,6 @@
 """``colift worker``: evaluation of the submissions in a board's queue."""
 
-import signal
 import sys
-from types import FrameType
 from typing import Annotated
 
 import typer
@@ -16,14 +14,12 @@ from colift.cli.board_options import (
     report_isolation,
 )
 from colift.cli.options import Dask, Jobs, executor
+from colift.cli.signals import interrupted_once
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import WorkerQueue
 from colift.leaderboard.queue.worker import Worker
 from colift.leaderboard.records.job import Job
-
-ENDING = (signal.SIGINT, signal.SIGTERM)
-"""Signals that end a worker."""
 
 
 def worker(
@@ -46,8 +42,7 @@ def worker(
     Any number of workers may share a board. If one is killed, another takes over its job. A worker
     waits for a database server that is away.
     """
-    for number in ENDING:
-        signal.signal(number, _stop)
+    interrupted_once()
     if verbose:
         write_log("colift.sandbox")
     report_isolation(isolation)
@@ -69,9 +64,3 @@ def worker(
 def _report(job: Job) -> None:
     reason = "" if job.reason is None else f": {job.reason.splitlines()[0]}"
     print(f"{job.name} ({job.submission[:16]}) {job.state}{reason}", flush=True)
-
-
-def _stop(number: int, frame: FrameType | None) -> None:
-    for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)  # A second one would interrupt the cleanup.
-    raise KeyboardInterrupt

@@ -55,6 +55,34 @@ def test_ctrl_c_while_a_command_loads_ends_it_without_a_word(module):
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "")
 
 
+LOST = """
+import signal, time, weakref
+from colift.cli import signals
+
+class Library: pass
+
+with signals.interruptible() as ending:
+    if {once}:
+        signals.interrupted_once()
+    try:
+        kept = Library()
+        called = weakref.ref(kept, lambda _: signal.raise_signal(signal.{number}))
+        del kept
+        time.sleep(20)
+    except KeyboardInterrupt:
+        print("ended", ending.code)
+"""
+"""A command that is interrupted while a library's callback runs: Python drops what that raises."""
+
+
+@pytest.mark.parametrize("once", [True, False])
+@pytest.mark.parametrize(("number", "code"), [("SIGTERM", 143), ("SIGINT", 130)])
+def test_an_interrupt_inside_a_callback_is_not_lost(once, number, code):
+    command = [sys.executable, "-c", LOST.format(once=once, number=number)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=15)
+    assert (done.stdout, done.stderr) == (f"ended {130 if once else code}\n", "")
+
+
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
     started = tmp_path / "started"
