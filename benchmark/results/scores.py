@@ -2,6 +2,7 @@
 
 import functools
 import math
+from array import array
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
@@ -40,7 +41,7 @@ class ScoreTable:
 
     strata: tuple[Stratum, ...]
     """Behaviour and subject of each lift, in the suite's order."""
-    values: Mapping[str, tuple[float, ...]] = field(hash=False)
+    values: Mapping[str, Sequence[float]] = field(hash=False)
     """Value of each metric in each lift, NaN where there is none. A stored table has the leading
     metric alone."""
     means: Mapping[str, float | None] = field(default_factory=dict, hash=False)
@@ -53,17 +54,18 @@ class ScoreTable:
     def of(cls, run: Run) -> Self:
         """Return the scores of a run."""
         metrics = run.suite.metrics
-        values = {name: tuple(each.scores[name] for each in run.episodes) for name in metrics}
+        values = {name: array("d", (e.scores[name] for e in run.episodes)) for name in metrics}
+        known: dict[Stratum, Stratum] = {}
         boards = (metric.name for metric in on_boards(metrics))
         return cls(
-            strata=tuple(map(stratum, run.episodes)),
+            strata=tuple(known.setdefault(each, each) for each in map(stratum, run.episodes)),
             values=values,
             means={name: mean_with_missing(values[name]).mean for name in boards},
             failures=tuple(episode.failure for episode in run.episodes),
         )
 
     @property
-    def rmse_mm(self) -> tuple[float, ...]:
+    def rmse_mm(self) -> Sequence[float]:
         """RMSE of each lift [mm]."""
         return self.values[LEADING]
 
@@ -96,7 +98,7 @@ class ScoreTable:
         """Return the lifts with these indices."""
         return type(self)(
             strata=tuple(self.strata[i] for i in members),
-            values={name: tuple(of[i] for i in members) for name, of in self.values.items()},
+            values={name: array("d", (of[i] for i in members)) for name, of in self.values.items()},
             failures=tuple(self.failures[i] for i in members if self.failures),
         )
 
@@ -148,7 +150,7 @@ class ScoreTable:
             raise ValueError(
                 f"{len(kept.rmse_mm)} errors for the strata of {len(kept.strata)} lifts"
             )
-        return cls(strata=kept.strata, values={LEADING: kept.rmse_mm}, means=kept.means)
+        return cls(strata=kept.strata, values={LEADING: array("d", kept.rmse_mm)}, means=kept.means)
 
 
 class _Stored(msgspec.Struct):

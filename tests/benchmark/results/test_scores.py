@@ -68,10 +68,10 @@ def test_parts_have_their_own_lifts_in_order(copy, scores):
     (behaviour, subject), *_ = scores.strata
     mine = [e for e in copy.episodes if (e.behaviour, e.subject) == (behaviour, subject)]
     part = scores.part(behaviour, subject)
-    assert part.rmse_mm == tuple(e.scores[LEADING] for e in mine)
-    assert part == scores.by_stratum[behaviour, subject]
+    assert list(part.rmse_mm) == [e.scores[LEADING] for e in mine]
+    assert part.plain() == scores.by_stratum[behaviour, subject].plain()
     assert sum(len(each.strata) for each in scores.by_stratum.values()) == len(copy.episodes)
-    assert scores.part() == scores.select(range(len(scores.strata)))
+    assert scores.part().plain()["rmse_mm"] == scores.plain()["rmse_mm"]
 
 
 def test_against_another_agent_lifts_are_paired(scores, hold):
