@@ -96,7 +96,8 @@ def play_baselines(
     found = {}
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
-        found[name] = ScoreTable.of(run_suite(spec, played, executor=executor, progress=progress))
+        run = run_suite(spec, played, executor=executor, progress=progress)
+        found[name] = ScoreTable.of(run).stored()
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)

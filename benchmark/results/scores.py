@@ -126,6 +126,11 @@ class ScoreTable:
         some = [lift for lift in lifts if not math.isnan(lift[0] + lift[1])]
         return Paired(*map(tuple, zip(*some, strict=True))) if some else Paired((), (), ())
 
+    def stored(self) -> Self:
+        """Return what is left of the table when it is stored and read again."""
+        values = {LEADING: self.rmse_mm}
+        return type(self)(strata=self.strata, values=values, means=self.means)
+
     def plain(self) -> dict[str, Any]:
         """Return what a stored table has, ready for JSON."""
         return {
