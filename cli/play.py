@@ -16,7 +16,7 @@ from colift.cli.completion import policies
 from colift.cli.listening import LOOPBACK, Host, Port, listening_at, url_of
 from colift.cli.options import PolicyIsolation, RobotName, check_folder
 from colift.cli.partners import FIRST, partners
-from colift.cli.signals import interrupted_once
+from colift.cli.signals import until_signalled
 from colift.leaderboard.logs import write_log
 
 PORT: Final = 8100
@@ -85,19 +85,15 @@ def play(
         hosts=frozenset() if root or not _is_loopback(host) else HOSTS,
     )
     write_log()
-    interrupted_once()
-    try:
-        with listening_at(host, port) as listener:
-            address = url_of(listener)
-            if not _is_loopback(listener.getsockname()[0]):
-                print(SECURE, file=sys.stderr, flush=True)
-            print(f"Lift with {next(iter(named))} at {address} (Ctrl-C ends it)", flush=True)
-            print(f"Each lift is saved in {out}", flush=True)
-            if not no_browser and _has_display():
-                webbrowser.open(address.replace("//0.0.0.0:", "//127.0.0.1:"))
-            keep_serving(config, listener, root.rstrip("/"))
-    except KeyboardInterrupt:
-        pass  # The requested end.
+    with until_signalled(), listening_at(host, port) as listener:
+        address = url_of(listener)
+        if not _is_loopback(listener.getsockname()[0]):
+            print(SECURE, file=sys.stderr, flush=True)
+        print(f"Lift with {next(iter(named))} at {address} (Ctrl-C ends it)", flush=True)
+        print(f"Each lift is saved in {out}", flush=True)
+        if not no_browser and _has_display():
+            webbrowser.open(address.replace("//0.0.0.0:", "//127.0.0.1:"))
+        keep_serving(config, listener, root.rstrip("/"))
 
 
 def _is_loopback(address: str) -> bool:

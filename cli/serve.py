@@ -22,7 +22,7 @@ from colift.cli.board_options import (
 )
 from colift.cli.listening import LOOPBACK, Host, Port, listening_at, url_of
 from colift.cli.partners import partners
-from colift.cli.signals import interrupted_once
+from colift.cli.signals import until_signalled
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.queue import Quota
 
@@ -100,8 +100,7 @@ def serve_board(
     command = [sys.executable, "-m", "colift.cli", "worker", "--board", str(board.absolute())]
     command += ["--jobs", str(max(1, default_jobs() // max(1, workers)))]  # They share the cores.
     command += ["--isolation", isolation]
-    interrupted_once()  # uvicorn raises them again after closing.
-    try:
+    with until_signalled():  # uvicorn raises the signals again after closing.
         with opened_board(board, open_patiently, new=True):
             pass  # Its database server may start at the same time.
         with listening_at(host, port) as listener:
@@ -119,8 +118,6 @@ def serve_board(
             with running(command, workers):
                 print(f"Board {board}: {url_of(listener)} (Ctrl-C ends it)", flush=True)
                 server.run(sockets=[listener])
-    except KeyboardInterrupt:
-        pass  # The requested end.
 
 
 def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":

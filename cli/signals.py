@@ -28,19 +28,38 @@ def interruptible() -> Iterator[Ending]:
         yield ending
 
 
-def interrupted_once() -> None:
-    """Let the first signal of :data:`ENDING` raise KeyboardInterrupt, and ignore all others.
+@contextmanager
+def until_signalled(last_words: str = "") -> Iterator[None]:
+    """Run the body until one of the signals of :data:`ENDING` comes: that is no error.
 
-    A second one would cut short the cleanup.
+    The first one interrupts the body, and all others are ignored: a second one would cut short the
+    cleanup. What is broken by the interrupt, such as a query to a database, may raise an error of
+    its own, which is none either.
+
+    Parameters
+    ----------
+    last_words
+        What is said after a signal, on stderr.
     """
+    came: list[int] = []
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        for each in ENDING:
+            signal.signal(each, signal.SIG_IGN)
+        came.append(number)
+        raise KeyboardInterrupt
+
     for number in ENDING:
-        signal.signal(number, _interrupt)
-
-
-def _interrupt(number: int, frame: FrameType | None) -> None:
-    for each in ENDING:
-        signal.signal(each, signal.SIG_IGN)
-    raise KeyboardInterrupt
+        signal.signal(number, interrupt)
+    try:
+        yield
+    except KeyboardInterrupt:
+        pass
+    except Exception:
+        if not came:
+            raise
+    if came and last_words:
+        print(last_words, file=sys.stderr)
 
 
 @contextmanager

@@ -14,7 +14,7 @@ from colift.cli.board_options import (
     report_isolation,
 )
 from colift.cli.options import Dask, Jobs, executor
-from colift.cli.signals import interrupted_once
+from colift.cli.signals import until_signalled
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import WorkerQueue
@@ -42,11 +42,10 @@ def worker(
     Any number of workers may share a board. If one is killed, another takes over its job. A worker
     waits for a database server that is away.
     """
-    interrupted_once()
-    if verbose:
-        write_log("colift.sandbox")
-    report_isolation(isolation)
-    try:
+    with until_signalled("ended; an unfinished evaluation is back in the queue"):
+        if verbose:
+            write_log("colift.sandbox")
+        report_isolation(isolation)
         opening = open_with_practice if once else open_patiently
         with opened_board(board, opening, new=True) as place, executor(jobs, dask) as workers:
             here = Worker(WorkerQueue(place), workers, isolation=isolation)
@@ -57,8 +56,6 @@ def worker(
             else:
                 print(f"working for {place.folder}; Ctrl-C ends it", file=sys.stderr, flush=True)
                 here.run(ended=_report)
-    except KeyboardInterrupt:
-        print("ended; an unfinished evaluation is back in the queue", file=sys.stderr)
 
 
 def _report(job: Job) -> None:

@@ -172,7 +172,7 @@ def test_a_worker_waits_for_a_database_that_is_away_at_its_start(
             assert told.read_text().count("waiting for the database") == 1
             assert Queue(board).attendance().present
             worker.send_signal(signal.SIGTERM)
-            assert worker.wait(60) == 0
+            assert worker.wait(60) == 0, told.read_text()
             assert not Queue(board).attendance().present
             board.close()
         finally:
