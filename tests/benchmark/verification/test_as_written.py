@@ -165,6 +165,6 @@ def test_all_that_is_taken_as_said_is_named():
 
 def test_the_largest_traces_need_a_large_file(bundle):
     """An array of zeros takes a thousandth of its size in a file."""
-    edit_arrays(bundle, lambda arrays: arrays.update(human_end=np.zeros(2**24)))
+    edit_arrays(bundle, lambda arrays: arrays.update(human_end=np.zeros(2**22)))
     mend(bundle)
     assert "bytes, at most" in refused(bundle, file="traces.npz")
