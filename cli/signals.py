@@ -33,33 +33,26 @@ def until_signalled(last_words: str = "") -> Iterator[None]:
     """Run the body until one of the signals of :data:`ENDING` comes: that is no error.
 
     The first one interrupts the body, and all others are ignored: a second one would cut short the
-    cleanup. What is broken by the interrupt, such as a query to a database, may raise an error of
-    its own, which is none either.
+    cleanup.
 
     Parameters
     ----------
     last_words
         What is said after a signal, on stderr.
     """
-    came: list[int] = []
-
-    def interrupt(number: int, frame: FrameType | None) -> None:
-        for each in ENDING:
-            signal.signal(each, signal.SIG_IGN)
-        came.append(number)
-        raise KeyboardInterrupt
-
     for number in ENDING:
-        signal.signal(number, interrupt)
+        signal.signal(number, _interrupt)
     try:
         yield
     except KeyboardInterrupt:
-        pass
-    except Exception:
-        if not came:
-            raise
-    if came and last_words:
-        print(last_words, file=sys.stderr)
+        if last_words:
+            print(last_words, file=sys.stderr)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    for each in ENDING:
+        signal.signal(each, signal.SIG_IGN)
+    raise KeyboardInterrupt
 
 
 @contextmanager
@@ -74,7 +67,13 @@ def _none_lost() -> Iterator[None]:
         if not isinstance(lost.exc_value, KeyboardInterrupt):
             usual(lost)
             return
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        before = signal.getsignal(signal.SIGINT)
+
+        def once(number: int, frame: FrameType | None) -> None:
+            signal.signal(number, before)
+            raise KeyboardInterrupt
+
+        signal.signal(signal.SIGINT, once)
         main = threading.main_thread().ident or 0
         threading.Timer(AGAIN, signal.pthread_kill, (main, signal.SIGINT)).start()
 

@@ -51,9 +51,27 @@ def make_engine(url: sa.URL) -> sa.Engine:
 
 
 @contextmanager
+def _interrupts_shown() -> Iterator[None]:
+    """Raise an interrupt as such, where a driver raises an error of its own in its place.
+
+    It does so if it is interrupted amid a query and then resets the connection. The error would
+    be taken for one of the database or of the machine, and the work would go on.
+    """
+    try:
+        yield
+    except Exception as error:
+        cause: BaseException | None = error
+        while cause is not None:
+            if isinstance(cause, KeyboardInterrupt):
+                raise KeyboardInterrupt from error
+            cause = cause.__cause__ or cause.__context__
+        raise
+
+
+@contextmanager
 def reading(engine: sa.Engine) -> Iterator[sa.Connection]:
     """Yield a connection that sees one state of the database."""
-    with engine.connect() as connection:
+    with _interrupts_shown(), engine.connect() as connection:
         if connection.dialect.name == "postgresql":
             connection.execution_options(isolation_level="REPEATABLE READ")
         with connection.begin():
@@ -63,7 +81,11 @@ def reading(engine: sa.Engine) -> Iterator[sa.Connection]:
 @contextmanager
 def writing(engine: sa.Engine) -> Iterator[sa.Connection]:
     """Yield a connection whose changes are made as a whole or not at all, one at a time."""
-    with engine.connect().execution_options(writing=True) as connection, connection.begin():
+    with (
+        _interrupts_shown(),
+        engine.connect().execution_options(writing=True) as connection,
+        connection.begin(),
+    ):
         if connection.dialect.name == "postgresql":
             connection.exec_driver_sql(f"SELECT pg_advisory_xact_lock({_LOCK})")
         yield connection

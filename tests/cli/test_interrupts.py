@@ -89,28 +89,6 @@ def test_an_interrupt_inside_a_callback_is_not_lost(once, number, code):
     assert (done.returncode, done.stdout, done.stderr) == (0, *told)
 
 
-BROKEN = """
-import signal
-from colift.cli import signals
-
-with signals.until_signalled("ended"):
-    try:
-        if {signalled}:
-            signal.raise_signal(signal.SIGTERM)
-    finally:
-        raise RuntimeError("the connection is in use")
-"""
-"""A command whose cleanup fails."""
-
-
-@pytest.mark.parametrize(("signalled", "code"), [(True, 0), (False, 1)])
-def test_what_an_interrupt_breaks_is_no_error(signalled, code):
-    command = [sys.executable, "-c", BROKEN.format(signalled=signalled)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=15)
-    assert done.returncode == code
-    assert (done.stderr == "ended\n") is signalled
-
-
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_ctrl_c_keeps_what_is_finished_and_says_so(tmp_path, jobs):
     started = tmp_path / "started"

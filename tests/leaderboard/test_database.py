@@ -1,6 +1,8 @@
 """The tables: how they come to be, and that what was said stays said."""
 
+import signal
 import sqlite3
+import threading
 from pathlib import Path
 
 import pytest
@@ -15,7 +17,7 @@ from colift.leaderboard.database.connection import Database
 from colift.leaderboard.database.migration import HEAD, migrate
 from colift.leaderboard.database.queries import read_entries, read_error_numbers, read_errors
 from colift.leaderboard.database.schema import APPEND_ONLY, metadata
-from colift.leaderboard.database.transactions import make_engine
+from colift.leaderboard.database.transactions import make_engine, reading, writing
 from colift.leaderboard.queue import Queue, WorkerQueue
 
 from .revisions.make import HERE, stored
@@ -204,3 +206,48 @@ def test_a_file_that_is_no_database_is_told(tmp_path):
     (tmp_path / "board.sqlite").write_text("no database at all, whatever its name says" * 100)
     with pytest.raises(InputError, match="cannot be opened: file is not a database"):
         Board.open(tmp_path)
+
+
+@pytest.mark.parametrize("transaction", [reading, writing])
+def test_an_interrupt_that_a_driver_turns_into_an_error_of_its_own_stays_one(engine, transaction):
+    """As psycopg does if it is interrupted while it looks whether a connection still works."""
+    broken = []
+
+    def reset(connection, record, proxy):
+        if broken:
+            try:
+                raise KeyboardInterrupt
+            finally:
+                raise engine.dialect.dbapi.ProgrammingError("the connection is in use")
+
+    sa.event.listen(engine, "checkout", reset)
+    with transaction(engine) as connection:
+        assert connection.scalar(sa.text("SELECT 1")) == 1
+    broken.append(True)
+    with pytest.raises(KeyboardInterrupt), transaction(engine):
+        pass
+    broken.clear()
+    with transaction(engine) as connection:
+        assert connection.scalar(sa.text("SELECT 1")) == 1
+
+
+@pytest.mark.parametrize("transaction", [reading, writing])
+def test_an_error_stays_what_it_is(engine, transaction):
+    with pytest.raises(sa.exc.DBAPIError), transaction(engine) as connection:
+        connection.execute(sa.text("SELECT nothing FROM nowhere"))
+
+
+@pytest.mark.parametrize("transaction", [reading, writing])
+def test_an_interrupt_amid_a_query_leaves_a_database_that_works(postgresql, transaction):
+    engine = make_engine(sa.make_url(postgresql.replace("sql://", "sql+psycopg://")))
+    interrupt = threading.Timer(0.3, signal.pthread_kill, (threading.get_ident(), signal.SIGINT))
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        interrupt.start()
+        with pytest.raises(KeyboardInterrupt), transaction(engine) as connection:
+            connection.execute(sa.text("SELECT pg_sleep(30)"))
+        with transaction(engine) as connection:
+            assert connection.scalar(sa.text("SELECT 1")) == 1
+    finally:
+        signal.signal(signal.SIGINT, usual)
+        engine.dispose()

@@ -64,14 +64,27 @@ def test_a_lift_without_a_value_counts_as_missing_and_not_in_the_mean(suite, hol
     assert half.estimate("sparc").mean == half.metric("sparc").mean == -2.0
 
 
+def same(one, other):
+    """Return whether two tables have the same lifts and numbers, missing ones too."""
+    return (
+        one.strata == other.strata
+        and one.failures == other.failures
+        and list(one.values) == list(other.values)
+        and all(
+            np.array_equal(one.values[name], other.values[name], equal_nan=True)
+            for name in one.values
+        )
+    )
+
+
 def test_parts_have_their_own_lifts_in_order(copy, scores):
     (behaviour, subject), *_ = scores.strata
     mine = [e for e in copy.episodes if (e.behaviour, e.subject) == (behaviour, subject)]
     part = scores.part(behaviour, subject)
     assert list(part.rmse_mm) == [e.scores[LEADING] for e in mine]
-    assert part.plain() == scores.by_stratum[behaviour, subject].plain()
+    assert same(part, scores.by_stratum[behaviour, subject])
     assert sum(len(each.strata) for each in scores.by_stratum.values()) == len(copy.episodes)
-    assert scores.part().plain()["rmse_mm"] == scores.plain()["rmse_mm"]
+    assert same(scores.part(), scores)
 
 
 def test_against_another_agent_lifts_are_paired(scores, hold):
@@ -93,6 +106,8 @@ def test_a_stored_table_has_the_errors_and_the_means(scores, suite):
         scores.error,
     )
     assert stored.plain() == scores.plain()
+    assert same(stored, scores.stored())
+    assert stored.means == scores.stored().means
 
 
 def test_failed_lifts_are_counted(scores):
