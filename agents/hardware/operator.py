@@ -6,7 +6,8 @@ import sys
 import threading
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from queue import Empty, SimpleQueue
 from typing import Final
 
 from colift.agents.hardware.stops import Stop, StopTrialError
@@ -39,7 +40,9 @@ class StopButton:
     """A latching stop button; pressing it wakes all waiting threads."""
 
     def __init__(self) -> None:
-        self._event = threading.Event()
+        # A handler of signals presses it amid a wait of its own thread. A queue of this kind may be
+        # filled there; a threading.Event may not: its lock is taken, and both wait forever.
+        self._bell: SimpleQueue[None] = SimpleQueue()
         self._reason: str | None = None
         self._presses: list[str] = []
 
@@ -63,11 +66,14 @@ class StopButton:
         self._presses.append(reason)
         if self._reason is None:
             self._reason = reason
-        self._event.set()
+        self._bell.put(None)
 
     def wait(self, seconds: float) -> bool:
         """Wait at most ``seconds``; return whether it is pressed."""
-        return self._event.wait(seconds)
+        if self._reason is None:
+            with suppress(Empty):
+                self._bell.put(self._bell.get(timeout=seconds))
+        return self._reason is not None
 
 
 @contextmanager

@@ -1,5 +1,6 @@
 """The operator's controls: what presses the stop button, and when the table counts as taken out."""
 
+import itertools
 import os
 import signal
 import sys
@@ -40,6 +41,58 @@ def test_a_hang_up_that_was_ignored_presses_the_button():
         assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+def pressed_at(moment, ends):
+    """Press a button at a moment of its wait, as a handler of signals of the same thread does."""
+    button = StopButton()
+    lines = 0
+
+    def trace(*_):
+        nonlocal lines
+        if lines == moment:
+            button.press("a signal")
+        lines += 1
+        return trace
+
+    sys.settrace(trace)
+    button.wait(0.02)
+    sys.settrace(None)
+    if lines > moment:
+        assert button.wait(0.0)
+    ends.append(lines)
+
+
+def test_a_press_amid_its_own_wait_does_not_hang():
+    for moment in itertools.count():
+        ends = []
+        waiting = threading.Thread(target=pressed_at, args=(moment, ends), daemon=True)
+        waiting.start()
+        waiting.join(10.0)
+        assert ends, f"pressed at line {moment} of the wait, it waits forever"
+        if ends[0] <= moment:
+            break
+    assert moment > 3
+
+
+def test_a_press_wakes_all_that_wait():
+    button = StopButton()
+    woken = []
+    waiting = [
+        threading.Thread(target=lambda: woken.append(button.wait(20.0)), daemon=True)
+        for _ in range(4)
+    ]
+    for thread in waiting:
+        thread.start()
+    time.sleep(0.1)
+    begin = time.monotonic()
+    button.press("the Enter key")
+    button.press("SIGTERM")
+    for thread in waiting:
+        thread.join(10.0)
+    assert woken == [True] * 4
+    assert time.monotonic() - begin < 10.0
+    assert button.reason == "the Enter key"
 
 
 @pytest.fixture
