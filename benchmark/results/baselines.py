@@ -96,8 +96,10 @@ def play_baselines(
     found = {}
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
-        run = run_suite(spec, played, executor=executor, progress=progress)
-        found[name] = ScoreTable.of(run).stored()
+        # No name for the run: it would be in memory while the next baseline is played.
+        found[name] = ScoreTable.of(
+            run_suite(spec, played, executor=executor, progress=progress)
+        ).stored()
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)
