@@ -1,5 +1,6 @@
 """Transactions that mean the same in SQLite and in PostgreSQL."""
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
@@ -55,13 +56,15 @@ def _interrupts_shown() -> Iterator[None]:
     """Raise an interrupt as such, where a driver raises an error of its own in its place.
 
     It does so if it is interrupted amid a query and then resets the connection. The error would
-    be taken for one of the database or of the machine, and the work would go on.
+    be taken for one of the database or of the machine, and the work would go on. An error of a
+    transaction that cleans up after an interrupt stays an error.
     """
+    handled = sys.exc_info()[1]
     try:
         yield
     except Exception as error:
         cause: BaseException | None = error
-        while cause is not None:
+        while cause is not None and cause is not handled:
             if isinstance(cause, KeyboardInterrupt):
                 raise KeyboardInterrupt from error
             cause = cause.__cause__ or cause.__context__

@@ -238,6 +238,15 @@ def test_an_error_stays_what_it_is(engine, transaction):
 
 
 @pytest.mark.parametrize("transaction", [reading, writing])
+def test_an_error_of_a_cleanup_after_an_interrupt_stays_one(engine, transaction):
+    try:
+        raise KeyboardInterrupt
+    except KeyboardInterrupt:
+        with pytest.raises(sa.exc.DBAPIError), transaction(engine) as connection:
+            connection.execute(sa.text("SELECT nothing FROM nowhere"))
+
+
+@pytest.mark.parametrize("transaction", [reading, writing])
 def test_an_interrupt_amid_a_query_leaves_a_database_that_works(postgresql, transaction):
     engine = make_engine(sa.make_url(postgresql.replace("sql://", "sql+psycopg://")))
     interrupt = threading.Timer(0.3, signal.pthread_kill, (threading.get_ident(), signal.SIGINT))

@@ -1,6 +1,7 @@
 """The baselines (the human-human baseline, hold, copy), and the bounds shipped with them."""
 
 import dataclasses
+import gc
 import json
 
 import numpy as np
@@ -11,7 +12,7 @@ from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.bundle import results
 from colift.benchmark.comparison.playing import play_bounds
 from colift.benchmark.episode.metric import on_boards
-from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.paper.table_one import HUMAN_HUMAN_RMSE
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
@@ -33,6 +34,20 @@ def quick():
 @pytest.fixture(scope="module")
 def played(quick):
     return play_baselines(quick)
+
+
+def test_no_run_of_a_baseline_is_in_memory_while_the_next_is_played(quick):
+    alive = []
+
+    def look(episodes):
+        played = (each for each in gc.get_objects() if isinstance(each, Run))
+        alive.append(sum(each.suite.seeds == (77,) for each in played))
+
+    play_baselines(
+        dataclasses.replace(quick, scenarios=quick.scenarios[:1], seeds=(77,)), progress=look
+    )
+    assert len(alive) > 2
+    assert not any(alive)
 
 
 @pytest.mark.parametrize("name", own_entries(SUITES))
