@@ -8,11 +8,11 @@ import sys
 import time
 from pathlib import Path
 
-import httpx
 import pytest
 from colift.base.extras import how_to_install
 from colift.benchmark.real_lifts.session_folder import EVENTS
 
+from .. import web
 from ..play.web.pages import GRIP, Page, new_session
 
 pytestmark = pytest.mark.slow
@@ -144,7 +144,7 @@ def test_the_page_offers_all_policies_the_named_one_first(play, tmp_path):
         state = host.ready()
         assert state["partner"] == "Mine"
         assert {"Mine", "anticipate", "blend", "copy", "person"} <= set(state["partners"])
-    assert 'href="/lab/' in httpx.get(url).text
+    assert 'href="/lab/' in web.get(url).text
 
 
 def test_other_machines_are_told_what_they_lack(play):

@@ -2,11 +2,11 @@
 
 import re
 
-import httpx
 import pytest
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import Queue, WorkerQueue
 
+from ... import web
 from ...browser import violations
 from ..signed import write_signed
 from .boards import digest
@@ -69,7 +69,7 @@ def test_a_filtered_board_can_be_read_too(page, url):
 
 def test_nothing_in_a_page_is_inline(url, path):
     """The service's content security policy would leave it out."""
-    text = httpx.get(url + path, follow_redirects=True).text
+    text = web.get(url + path, follow_redirects=True).text
     assert "</html>" in text
     assert "<style" not in text
     assert not re.search(r"<[^>]*\s(style|on\w+)=", text)

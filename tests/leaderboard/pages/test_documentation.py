@@ -1,12 +1,12 @@
 """The documentation that a board links to."""
 
-import httpx
 import pytest
 from colift.base.errors import InputError
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Page, expect
 
+from ... import web
 from .conftest import running
 
 INDEX = """<!doctype html><title>The manual</title><style>h1 { color: rgb(1, 2, 3) }</style>
@@ -37,22 +37,22 @@ def test_a_folder_is_served_with_its_styles_and_scripts(folder, manual, page: Pa
 
 def test_the_board_keeps_its_own_content_security_policy(folder, manual):
     with running(folder, Documentation.at(str(manual))) as url:
-        assert "unsafe-inline" in httpx.get(f"{url}/docs/").headers["Content-Security-Policy"]
-        assert "unsafe-inline" not in httpx.get(f"{url}/").headers["Content-Security-Policy"]
+        assert "unsafe-inline" in web.get(f"{url}/docs/").headers["Content-Security-Policy"]
+        assert "unsafe-inline" not in web.get(f"{url}/").headers["Content-Security-Policy"]
 
 
 def test_files_outside_the_folder_are_not_served(folder, manual):
     (manual.parent / "secret.html").write_text("the words inside")
     with running(folder, Documentation.at(str(manual))) as url:
         for path in ("../secret.html", "%2e%2e/secret.html", "..%2fsecret.html"):
-            answer = httpx.get(f"{url}/docs/{path}")
+            answer = web.get(f"{url}/docs/{path}")
             assert answer.status_code == 404
             assert "the words inside" not in answer.text
 
 
 def test_without_documentation_there_is_no_link(url):
-    assert "Documentation" not in httpx.get(f"{url}/").text
-    assert httpx.get(f"{url}/docs/").status_code == 404
+    assert "Documentation" not in web.get(f"{url}/").text
+    assert web.get(f"{url}/docs/").status_code == 404
 
 
 def test_the_table_links_to_the_page_on_real_people(folder, manual, page: Page):
@@ -67,7 +67,7 @@ def test_the_table_links_to_the_page_on_real_people(folder, manual, page: Page):
 
 
 def test_without_documentation_the_table_names_the_command(url):
-    text = httpx.get(f"{url}/").text
+    text = web.get(f"{url}/").text
     assert "How far to believe this table" in text
     assert "<code>colift validity FILE.csv</code>" in text
     assert "validity.html" not in text

@@ -6,17 +6,17 @@ import zipfile
 from pathlib import Path
 from urllib.parse import urljoin, urlsplit
 
-import httpx
 from colift.agents.submissions.submission import read_submission
 from colift.leaderboard.core.board import Board
 
+from ... import web
 from .boards import digest
 
 ATOM = "{http://www.w3.org/2005/Atom}"
 
 
 def test_the_feed_has_the_rows_newest_first_and_leads_to_their_pages(url, folder):
-    answer = httpx.get(f"{url}/seasons/2026/feed.atom")
+    answer = web.get(f"{url}/seasons/2026/feed.atom")
     assert answer.headers["content-type"].startswith("application/atom+xml")
     feed = ET.fromstring(answer.content)
     board = Board.open(folder)
@@ -25,7 +25,7 @@ def test_the_feed_has_the_rows_newest_first_and_leads_to_their_pages(url, folder
     entries = feed.findall(f"{ATOM}entry")
     links = [urljoin(url, entry.find(f"{ATOM}link").get("href")) for entry in entries]
     assert links == [f"{url}/seasons/2026/policies/{each.row.submission}" for each in newest]
-    assert httpx.get(links[0]).status_code == 200
+    assert web.get(links[0]).status_code == 200
     assert urljoin(url, feed.find(f"{ATOM}link[@rel='self']").get("href")) == str(answer.url)
     titles = [entry.find(f"{ATOM}title").text for entry in entries]
     assert titles[0].startswith("<b>sly</b>: ")
@@ -37,7 +37,7 @@ def test_the_feed_on_the_disk_names_the_same_rows(url, site):
     place = Path(urlsplit(site).path) / "data"
     ids = []
     for text in (
-        httpx.get(f"{url}/seasons/2026/feed.atom").text,
+        web.get(f"{url}/seasons/2026/feed.atom").text,
         (place / "2026.atom").read_text(),
     ):
         ids.append([each.text for each in ET.fromstring(text).iter(f"{ATOM}id")])
@@ -47,7 +47,7 @@ def test_the_feed_on_the_disk_names_the_same_rows(url, site):
 
 
 def test_what_was_done_to_a_row_moves_the_feed_s_date(url):
-    feed = ET.fromstring(httpx.get(f"{url}/seasons/2025/feed.atom").content)
+    feed = ET.fromstring(web.get(f"{url}/seasons/2025/feed.atom").content)
     hold = next(
         e for e in feed.findall(f"{ATOM}entry") if e.find(f"{ATOM}title").text[:4] == "hold"
     )
@@ -59,17 +59,17 @@ def test_a_badge_tells_error_and_rank_and_may_stand_on_pages_elsewhere(url, fold
     board = Board.open(folder)
     best = board.standings("2026")[0]
     board.close()
-    answer = httpx.get(f"{url}/seasons/2026/policies/{best.row.submission}/badge.svg")
+    answer = web.get(f"{url}/seasons/2026/policies/{best.row.submission}/badge.svg")
     assert answer.headers["content-type"] == "image/svg+xml"
     assert answer.headers["cross-origin-resource-policy"] == "cross-origin"
     told = ET.fromstring(answer.content).get("aria-label")
     assert told == f"colift: {best.row.hidden.rmse_mm.mean:.1f} mm · rank 1"
-    gone = httpx.get(f"{url}/seasons/2025/policies/{digest('hold')}/badge.svg")
+    gone = web.get(f"{url}/seasons/2025/policies/{digest('hold')}/badge.svg")
     assert "not ranked" in gone.text
-    assert httpx.get(f"{url}/seasons/2026/policies/{'f' * 64}/badge.svg").status_code == 404
+    assert web.get(f"{url}/seasons/2026/policies/{'f' * 64}/badge.svg").status_code == 404
 
 
 def test_the_template_can_be_downloaded_and_is_a_submission(url, tmp_path):
-    answer = httpx.get(f"{url}/template.zip")
+    answer = web.get(f"{url}/template.zip")
     zipfile.ZipFile(io.BytesIO(answer.content)).extractall(tmp_path)
     assert read_submission(tmp_path).manifest.name == "my-policy"

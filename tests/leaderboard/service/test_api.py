@@ -4,10 +4,11 @@ import errno
 import logging
 import re
 
-import httpx
 import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.service import published
+
+from ... import web
 
 DIGEST = "0" * 64
 JOB = "0" * 32
@@ -97,9 +98,9 @@ def test_a_wrong_address_of_the_interface_is_json_for_browsers_too(client, path)
 
 def test_a_wrong_address_below_a_proxys_path_is_answered_in_the_same_way(folder, serving):
     with serving(folder, root="/board") as url:
-        page = httpx.get(f"{url}/nopage", headers=BROWSER)
+        page = web.get(f"{url}/nopage", headers=BROWSER)
         assert 'href="/board/"' in page.text
-        assert list(httpx.get(f"{url}/api/v1/nothing", headers=BROWSER).json()) == ["error"]
+        assert list(web.get(f"{url}/api/v1/nothing", headers=BROWSER).json()) == ["error"]
 
 
 @pytest.mark.parametrize("method", ["PUT", "DELETE", "PATCH", "TRACE"])
@@ -156,10 +157,10 @@ def test_the_api_is_described_without_anything_from_elsewhere(client):
 def test_behind_a_proxy_all_addresses_have_its_path(folder, serving, ada, zipped):
     """A proxy shows us below /lab, which it takes away before it asks us."""
     with serving(folder, root="/lab") as url:
-        page = httpx.get(f"{url}/").text
-        api = httpx.get(f"{url}/api").text
-        answer = httpx.post(f"{url}/api/v1/submissions", headers=ada, content=zipped("lab"))
-        assert httpx.get(url + answer.headers["Location"].removeprefix("/lab")).status_code == 200
+        page = web.get(f"{url}/").text
+        api = web.get(f"{url}/api").text
+        answer = web.post(f"{url}/api/v1/submissions", headers=ada, content=zipped("lab"))
+        assert web.get(url + answer.headers["Location"].removeprefix("/lab")).status_code == 200
     assert answer.headers["Location"] == f"/lab/api/v1/jobs/{answer.json()['id']}"
     for text in (page, api):
         found = re.findall(r'(?:src|href)="([^"]*)"', text)

@@ -33,7 +33,10 @@ def test_a_server_that_stops_is_told_as_503_and_comes_back_without_a_restart(
         token = Tokens(board).add("ada")
         board.close()
         headers = {"Authorization": f"Bearer {token}", "Content-Type": "application/zip"}
-        with serving(tmp_path / "board") as service, httpx.Client(base_url=service) as client:
+        with (
+            serving(tmp_path / "board") as service,
+            httpx.Client(base_url=service, timeout=60) as client,
+        ):
             post = {"url": "/api/v1/submissions", "headers": headers, "content": zipped("one")}
             assert client.get("/api/v1/standings").status_code == 200
             control("stop", "-m", "fast")

@@ -7,13 +7,13 @@ import zipfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import httpx
 import pytest
 from colift.leaderboard.service import dependencies as state
 from colift.leaderboard.service import published
 from colift.leaderboard.storage import store
 from colift.leaderboard.storage.store import Store
 
+from ... import web
 from ..rows import add, digest
 
 SIZE = 8 * 2**20
@@ -110,12 +110,12 @@ def test_clients_that_do_not_read_take_no_files_and_few_places(folder, serving, 
         before = temporary()
         connections = [unread(url, place) for _ in range(20)]
         try:
-            while httpx.get(url + place, headers={"Range": "bytes=0-9"}).status_code != 429:
+            while web.get(url + place, headers={"Range": "bytes=0-9"}).status_code != 429:
                 pass
             assert temporary() == before
-            assert httpx.get(f"{url}/healthz", timeout=2).status_code == 200
+            assert web.get(f"{url}/healthz", timeout=2).status_code == 200
             # The four are broken off in the end, and another one gets it.
-            while httpx.get(url + place, headers={"Range": "bytes=0-9"}).status_code != 206:
+            while web.get(url + place, headers={"Range": "bytes=0-9"}).status_code != 206:
                 pass
         finally:
             for connection in connections:

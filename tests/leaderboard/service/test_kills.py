@@ -12,13 +12,13 @@ import sys
 import time
 from pathlib import Path
 
-import httpx
 import pytest
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.job import HELD
 from colift.leaderboard.views.job import STAGES
 
+from ... import web
 from ..tiny import ENTRY
 
 pytestmark = pytest.mark.slow
@@ -134,7 +134,7 @@ def test_every_accepted_submission_gets_the_row_that_it_gets_undisturbed(
     process, url = serve()
     digests = []
     for number in range(SUBMISSIONS):
-        answer = httpx.post(
+        answer = web.post(
             f"{url}/api/v1/submissions", headers=ada, content=zipped(f"p{number}"), timeout=60
         )
         assert answer.status_code == 202

@@ -3,10 +3,11 @@
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
-import httpx
 import pytest
 from colift.leaderboard.queue import Queue, Quota
 from colift.leaderboard.service.dependencies import Rates
+
+from ... import web
 
 UPLOADS = 200
 TOKENS = 20
@@ -31,7 +32,7 @@ def test_each_of_200_uploads_is_taken_once_or_refused_with_the_reason(
 
         def upload(number):
             # Each has a client of its own: threads of one take connections away from each other.
-            return httpx.post(
+            return web.post(
                 f"{url}/api/v1/submissions",
                 headers=headers[number // 10],
                 content=bodies[number],

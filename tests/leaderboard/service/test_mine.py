@@ -3,6 +3,7 @@
 import pytest
 from colift.leaderboard.queue import NO_QUOTA, Queue, Quota, QuotaError, WorkerQueue
 
+from ... import web
 from ..rows import make_entry
 
 MINE = "/api/v1/me/submissions"
@@ -75,10 +76,9 @@ def test_without_a_token_nothing_is_ones_own(client):
 
 
 def test_the_rules_are_those_that_hold(folder, serving):
-    import httpx
 
     with serving(folder, contact="board@lab.example") as url:
-        told = httpx.get(f"{url}/api/v1/rules").json()
+        told = web.get(f"{url}/api/v1/rules").json()
     assert (told["season"], told["suite"]) == ("1", "quick-v1")
     assert (told["open_jobs"], told["kept_bytes"]) == (Quota().open, Quota().size)
     assert told["packages"] == ["filterpy", "numpy", "scikit-learn", "scipy"]

@@ -3,10 +3,10 @@
 import threading
 import time
 
-import httpx
 import pytest
 from colift.leaderboard.core import ranks
 
+from ... import web
 from ..rows import add, digest
 
 LONGEST_S = 60.0
@@ -29,7 +29,7 @@ def slow_ranks(monkeypatch):
 
 
 def rows(url):
-    found = httpx.get(f"{url}/api/v1/standings", timeout=LONGEST_S).json()
+    found = web.get(f"{url}/api/v1/standings").json()
     return [(each["row"]["name"], each["group"], each["pending"]) for each in found]
 
 
@@ -59,16 +59,16 @@ def test_readers_have_the_last_ranks_until_the_next_are_there(
                 f"/seasons/1/policies/{digest('b')}",
                 f"/seasons/1/policies/{digest('c')}/badge.svg",
             ):
-                assert httpx.get(url + path, timeout=LONGEST_S).status_code == 200
-            assert "Ranks are being computed" in httpx.get(url).text
-            badge = httpx.get(f"{url}/seasons/1/policies/{digest('b')}/badge.svg").text
+                assert web.get(url + path).status_code == 200
+            assert "Ranks are being computed" in web.get(url).text
+            badge = web.get(f"{url}/seasons/1/policies/{digest('b')}/badge.svg").text
             assert "being ranked" in badge
             go.set()
             end = time.monotonic() + LONGEST_S
             while told[1] != ("b", 2, False) and time.monotonic() < end:
                 told = rows(url)
             assert told == [("a", 1, False), ("b", 2, False), ("c", 3, False)]
-            assert "Ranks are being computed" not in httpx.get(url).text
+            assert "Ranks are being computed" not in web.get(url).text
 
 
 def test_ranks_are_computed_by_one_at_a_time(tmp_path, opening, slow_ranks):

@@ -2,10 +2,11 @@
 
 import socket
 
-import httpx
 import pytest
 from colift.leaderboard.service.dependencies import Rates
 from colift.leaderboard.service.security import Rate, RateLimit, local_path, network
+
+from ... import web
 
 SELDOM = Rate(per_second=0.01, burst=3)
 OFTEN = Rate(per_second=1e6, burst=10**6)
@@ -53,7 +54,7 @@ def test_addresses_of_one_subscriber_are_one(address, expected):
 
 def test_who_asks_too_often_is_told_when_to_come_again(folder, serving):
     with serving(folder, Rates(address=SELDOM, submitter=OFTEN)) as url:
-        answers = [httpx.get(f"{url}/healthz") for _ in range(4)]
+        answers = [web.get(f"{url}/healthz") for _ in range(4)]
     assert [answer.status_code for answer in answers] == [200, 200, 200, 429]
     assert "too many requests from your address" in answers[-1].json()["error"]
     assert 0 < int(answers[-1].headers["Retry-After"]) <= 100
@@ -63,7 +64,7 @@ def test_who_asks_too_often_is_told_when_to_come_again(folder, serving):
 def test_behind_a_proxy_it_is_the_client_that_is_counted(folder, serving):
     with serving(folder, Rates(address=SELDOM, submitter=OFTEN)) as url:
         codes = [
-            httpx.get(f"{url}/healthz", headers={"X-Forwarded-For": client}).status_code
+            web.get(f"{url}/healthz", headers={"X-Forwarded-For": client}).status_code
             for client in ["192.0.2.1"] * 4 + ["192.0.2.2"]
         ]
     assert codes == [200, 200, 200, 429, 200]
@@ -72,7 +73,7 @@ def test_behind_a_proxy_it_is_the_client_that_is_counted(folder, serving):
 def test_who_uploads_too_often_is_told_when_to_come_again(folder, serving, ada):
     with serving(folder, Rates(address=OFTEN, submitter=SELDOM)) as url:
         answers = [
-            httpx.post(f"{url}/api/v1/submissions", headers=ada, content=b"?") for _ in range(4)
+            web.post(f"{url}/api/v1/submissions", headers=ada, content=b"?") for _ in range(4)
         ]
     assert [answer.status_code for answer in answers] == [422, 422, 422, 429]
     assert "ada has submitted too often" in answers[-1].json()["error"]
@@ -141,7 +142,7 @@ def test_a_location_is_a_path(address, path):
 
 def test_a_board_that_knows_its_address_tells_it(folder, serving):
     with serving(folder, address="https://board.example/lift") as url:
-        feed = httpx.get(f"{url}/seasons/1/feed.atom", headers=HOST).text
-        submit = httpx.get(f"{url}/submit", headers=HOST).text
+        feed = web.get(f"{url}/seasons/1/feed.atom", headers=HOST).text
+        submit = web.get(f"{url}/submit", headers=HOST).text
     assert 'href="https://board.example/' in feed
     assert "--board https://board.example/lift</code>" in submit

@@ -4,7 +4,6 @@ import select
 import socket
 import time
 
-import httpx
 import pytest
 from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue
@@ -12,6 +11,7 @@ from colift.leaderboard.service import uploads
 from colift.leaderboard.service.uploads import BODY
 from colift.leaderboard.storage.staging import PREFIX
 
+from ... import web
 from .uploaded import MANY, SUBMIT, left_over
 
 pytestmark = pytest.mark.usefixtures("nothing_is_left")
@@ -146,7 +146,7 @@ def test_slow_uploads_of_one_delay_nobody_else_and_end(
     try:
         while len(left_over(folder)) < 2:
             time.sleep(0.01)
-        answer = httpx.post(f"{url}{SUBMIT}", headers=ada, content=zipped("quick"), timeout=60)
+        answer = web.post(f"{url}{SUBMIT}", headers=ada, content=zipped("quick"))
         assert answer.status_code == 202
         assert len(left_over(folder)) == 2
         monkeypatch.setattr(uploads, "WINDOW_S", 0.5)

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
-import httpx
 import pytest
 from colift.play.web.app import create_play
 from colift.play.web.keeper import PlayConfig
@@ -15,6 +14,7 @@ from colift.play.web.processes import SmallBuffers
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from ... import web
 from ...serving import serving
 
 GRIP = {"offset": 0.0, "playout": 20, "rtt": 1, "input": {"preset": "mouse"}}
@@ -37,7 +37,7 @@ def playing(
 
 def new_session(url: str) -> tuple[str, str]:
     """Make a session; return its name and the host's secret."""
-    answer = httpx.post(f"{url}/api/sessions").raise_for_status().json()
+    answer = web.post(f"{url}/api/sessions").raise_for_status().json()
     return answer["session"], answer["secret"]
 
 

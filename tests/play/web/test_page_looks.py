@@ -2,11 +2,11 @@
 
 import re
 
-import httpx
 import pytest
 from colift.leaderboard.replays.html import SCRIPTS
 from playwright.sync_api import expect
 
+from ... import web
 from ...browser import violations
 from .browsing import WAIT_MS, enter, wait_for, wait_for_phase
 
@@ -110,7 +110,7 @@ def test_the_page_says_plainly_what_it_is(page, url):
 
 
 def test_nothing_in_the_page_is_inline_or_from_elsewhere(url):
-    text = httpx.get(url).text
+    text = web.get(url).text
     assert "</html>" in text
     assert "<style" not in text
     assert not re.search(r"<[^>]*\s(style|on\w+)=", text)
@@ -118,4 +118,4 @@ def test_nothing_in_the_page_is_inline_or_from_elsewhere(url):
     assert len(scripts) == text.count("<script")
     assert [name.removeprefix("/static/") for name in scripts[: len(SCRIPTS)]] == list(SCRIPTS)
     for address in scripts:
-        assert httpx.get(url + address).text.startswith('"use strict";')
+        assert web.get(url + address).text.startswith('"use strict";')

@@ -6,13 +6,13 @@ import os
 import signal
 import time
 
-import httpx
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.real_lifts.session_folder import EVENTS, lift_folders
 from colift.play.rooms.messages import parse_frame
 from colift.play.web.keeper import PlayConfig
 
+from ... import web
 from .pages import GRIP, Page, new_session, playing, samples
 
 pytestmark = pytest.mark.slow
@@ -40,7 +40,7 @@ def session(url):
 
 def wait_for(url, **wanted):
     end = time.monotonic() + 30
-    while not wanted.items() <= httpx.get(f"{url}/api/health").json().items():
+    while not wanted.items() <= web.get(f"{url}/api/health").json().items():
         assert time.monotonic() < end
         time.sleep(0.1)
 
@@ -85,7 +85,7 @@ def test_a_lift_from_the_first_ping_to_its_replay(url, session, config):
     assert [path.name for path in lift_folders(config.folder / name)] == ["001-hold"]
     assert len(events(config, name, "join")) == 1
     place, headers = f"{url}/api/sessions/{name}/lifts/001/replay", bearer(name, secret)
-    replay = httpx.get(place, headers=headers, timeout=60).json()
+    replay = web.get(place, headers=headers).json()
     assert replay["policy"] == "hold"
     assert replay["scores"]["rmse_mm"] == pytest.approx(end["rmse_mm"], abs=1e-3)
     assert replay["ghost"]["rmse_mm"] == pytest.approx(end["ghost_rmse_mm"], abs=1e-3)

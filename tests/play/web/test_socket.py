@@ -11,6 +11,7 @@ from colift.play.web.keeper import PlayConfig
 from colift.play.web.limits import MESSAGES, SOCKETS
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
+from ... import web
 from .pages import Page, new_session, open_socket, playing
 
 pytestmark = pytest.mark.slow
@@ -50,11 +51,11 @@ def test_pages_of_others_get_no_socket(url, origin):
 
 def test_pages_of_others_get_no_session(url):
     headers = {"Origin": "https://evil.example"}
-    assert httpx.post(f"{url}/api/sessions", headers=headers).status_code == 403
+    assert web.post(f"{url}/api/sessions", headers=headers).status_code == 403
 
 
 def test_a_name_that_others_let_stand_for_this_machine_is_refused(url):
-    answer = httpx.get(f"{url}/api/health", headers={"Host": "evil.example"})
+    answer = web.get(f"{url}/api/health", headers={"Host": "evil.example"})
     assert answer.status_code == 421
     assert "127.0.0.1, localhost" in answer.json()["error"]
 
@@ -157,12 +158,12 @@ def test_a_spectator_who_comes_first_waits(url, session, config):
 
 
 def test_the_page_is_isolated_and_every_answer_is_guarded(url):
-    page = httpx.get(url)
+    page = web.get(url)
     assert page.headers["Cross-Origin-Embedder-Policy"] == "require-corp"
     assert page.headers["Cross-Origin-Opener-Policy"] == "same-origin"
     assert "hold" in page.text
     for place in ("/", "/api/geometry", "/static/icon.svg", "/nowhere"):
-        headers = httpx.get(f"{url}{place}").headers
+        headers = web.get(f"{url}{place}").headers
         assert headers["Content-Security-Policy"].startswith("default-src 'self'")
         assert headers["Cross-Origin-Resource-Policy"] == "same-origin"
 
@@ -173,19 +174,19 @@ def test_the_page_is_isolated_and_every_answer_is_guarded(url):
 def test_a_replay_needs_a_secret_of_its_session(url, session, credential):
     headers = {"Authorization": credential.format(*session)}
     place = f"{url}/api/sessions/{session[0]}/lifts/001/replay"
-    assert httpx.get(place, headers=headers).status_code == 401
+    assert web.get(place, headers=headers).status_code == 401
 
 
 def test_a_replay_that_is_not_there_is_not_found(url, session):
     headers = {"Authorization": "Bearer {}.{}".format(*session)}
     place = f"{url}/api/sessions/{session[0]}/lifts"
-    assert httpx.get(f"{place}/001/replay", headers=headers).status_code == 404
-    assert httpx.get(f"{place}/%2e%2e/replay", headers=headers).status_code in (404, 422)
+    assert web.get(f"{place}/001/replay", headers=headers).status_code == 404
+    assert web.get(f"{place}/%2e%2e/replay", headers=headers).status_code in (404, 422)
 
 
 def test_sessions_are_not_made_without_end(config, tmp_path):
     """On a server of its own: the other tests would find no session left."""
     alone = replace(config, folder=tmp_path)
-    with playing(alone, no_time) as address, httpx.Client(base_url=address) as client:
+    with playing(alone, no_time) as address, httpx.Client(base_url=address, timeout=60) as client:
         codes = [client.post("/api/sessions").status_code for _ in range(60)]
     assert codes[-1] == 429
