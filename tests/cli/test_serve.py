@@ -75,7 +75,7 @@ def test_it_tells_its_address_and_ends_with_its_workers(serve, folder, number):
     process, line = serve("--port", "0", "--workers", "2")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
     assert str(folder) in line
-    assert web.get(f"{url}/healthz", timeout=30).json() == {"status": "ok", "season": "1"}
+    assert web.get(f"{url}/healthz").json() == {"status": "ok", "season": "1"}
     until(lambda: len(children(process.pid)) == 2)
     workers = children(process.pid)
     process.send_signal(number)
@@ -154,14 +154,14 @@ def test_it_serves_a_folder_of_documentation_below_its_root(serve, tmp_path):
     options = ("--port", "0", "--workers", "0", "--root", "/lab", "--docs", str(tmp_path))
     _, line = serve(*options)
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    assert '<a href="/lab/docs/">Documentation</a>' in web.get(f"{url}/", timeout=30).text
+    assert '<a href="/lab/docs/">Documentation</a>' in web.get(f"{url}/").text
     assert "The manual" in web.get(f"{url}/docs/").text
 
 
 def test_it_links_to_documentation_elsewhere(serve):
     _, line = serve("--port", "0", "--workers", "0", "--docs", "https://lab.example/manual")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    page = web.get(f"{url}/", timeout=30).text
+    page = web.get(f"{url}/").text
     assert '<a href="https://lab.example/manual">Documentation</a>' in page
     assert web.get(f"{url}/docs/").status_code == 404
 
@@ -187,7 +187,7 @@ def test_without_its_libraries_it_says_how_to_get_them(folder):
 def test_visitors_lift_if_the_board_offers_rooms(serve, folder):
     _, line = serve("--port", "0", "--workers", "0", "--play", "1", "--root", "/lab")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    assert '<a href="/lab/play/">Lift</a>' in web.get(f"{url}/", timeout=30).text
+    assert '<a href="/lab/play/">Lift</a>' in web.get(f"{url}/").text
     page = web.get(f"{url}/play/")
     assert page.headers["Cross-Origin-Embedder-Policy"] == "require-corp"
     assert page.headers["Content-Security-Policy"].startswith("default-src 'self'")
@@ -203,6 +203,6 @@ def test_visitors_lift_if_the_board_offers_rooms(serve, folder):
 def test_a_board_without_rooms_has_no_sockets(serve):
     _, line = serve("--port", "0", "--workers", "0")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    assert ">Lift</a>" not in web.get(f"{url}/", timeout=30).text
+    assert ">Lift</a>" not in web.get(f"{url}/").text
     upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13"}
     assert web.get(f"{url}/play/socket", headers=upgrade).status_code == 404
