@@ -37,19 +37,30 @@ class Playing(Protocol):
     """Frames since its beginning."""
     command: float
     """The robot's hand command [m]."""
+    hand: float
+    """Height of the hands at the far end by their encoders [m]."""
     visual: int
     """The human's visual delay in frames."""
+    haptic: int
+    """The human's haptic delay in frames."""
+    latency: int
+    """Age of the motion capture's sample in frames."""
     partner_visual: int
     """That of a second human."""
     due: Any
     """The task's series, arrays (horizon,)."""
     facts: Any
     """The task's numbers."""
+    drawn: Drawn[float]
+    """Plan, series and numbers, as rules read them."""
     intention: Any
     """The person's intention in the coming step; see :meth:`.Person.intend`."""
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""
+
+    def seen(self, name: str, age: int) -> float:
+        """Return a past read-out; see :meth:`.View.seen`."""
 
     def robot_view(self) -> Observation:
         """Return the robot's senses: sight, touch, and the task's own."""

@@ -15,11 +15,29 @@ INTENT_METRICS: Final = metric_table(
             missing="never",
             shown="board",
             meaning="root mean square distance of both ends from their intended heights over the "
-            "whole trial, by which policies are ranked",
+            "whole trial, by which policies are ranked; each frame of the plan that is not done at "
+            "the end counts with 250 mm",
             words=MetricWords(
                 question="Who finds the pose that the human intends?",
                 praise=("accurate", "more accurate", "most accurate"),
                 plain="how far both ends of the table are from where the human intends them",
+            ),
+        ),
+        Metric(
+            name="finished",
+            symbol="finished",
+            label="Share of the plan done",
+            better="more",
+            missing="never",
+            shown="board",
+            meaning="share of the plan that person and robot have gone through at the end, to the "
+            "frame in which the table is down; less if the person still waits, or if an end is "
+            "more than 50 mm above the ground",
+            words=MetricWords(
+                noun="share of the plan done",
+                plain="how much of what the human intended was done in time",
+                note="share of the plan that was done at the end of the lift",
+                caption="Finished: share of the plan done.",
             ),
         ),
         Metric(
