@@ -35,6 +35,21 @@ class Ends(NamedTuple):
     """Place of the ball; 0 without one."""
 
 
+def held(squares: Any, stay: int) -> Any:
+    """Return the means of ``stay`` successive frames, from each frame that has so many.
+
+    Parameters
+    ----------
+    squares
+        (T,) for one lift, or (T, n) for n lifts [m2]; T is at least ``stay``.
+    stay
+        Number of frames, 1 or more.
+    """
+    means = len(squares) - stay + 1
+    # No cumulative sums: their rounding in single precision is as large as a square millimetre.
+    return sum(squares[first : first + means] for first in range(stay)) / stay
+
+
 def gathered(squares: Any, stay: int) -> Any:
     """Return the squares of a lift's frames as one number of each lift.
 
@@ -43,15 +58,10 @@ def gathered(squares: Any, stay: int) -> Any:
     squares
         (T,) for one lift, or (T, n) for n lifts [m2].
     stay
-        Frames k for which a place has to be held: the least mean over k successive frames. With 0
-        it is the sum over all frames.
+        Frames for which a place has to be held: the least mean over so many successive frames
+        (:func:`held`; of a shorter lift, the mean). With 0 it is the sum over all frames.
     """
-    if stay == 0:
-        return squares.sum(axis=0)
-    stay = min(stay, len(squares))
-    means = len(squares) - stay + 1
-    # No cumulative sums: their rounding in single precision is as large as a square millimetre.
-    return (sum(squares[first : first + means] for first in range(stay)) / stay).min(axis=0)
+    return held(squares, min(stay, len(squares))).min(axis=0) if stay else squares.sum(axis=0)
 
 
 @dataclass(frozen=True, kw_only=True)
