@@ -5,7 +5,7 @@ from typing import Any, Final, Generic, NamedTuple
 from colift.agents.rules import ArrayFunctions, N
 from colift.benchmark.tasks.agree.manner import AgreeingManner
 
-NEEDED: Final = 0.8
+NEEDED: Final = 0.9
 """Time that a passage needs, with the stay [s]."""
 
 EARLY: Final = 0.25

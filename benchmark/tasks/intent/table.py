@@ -24,23 +24,6 @@ INTENT_METRICS: Final = metric_table(
             ),
         ),
         Metric(
-            name="finished",
-            symbol="finished",
-            label="Share of the plan done",
-            better="more",
-            missing="never",
-            shown="board",
-            meaning="share of the plan that person and robot have gone through at the end, to the "
-            "frame in which the table is down; less if the person still waits, or if an end is "
-            "more than 50 mm above the ground",
-            words=MetricWords(
-                noun="share of the plan done",
-                plain="how much of what the human intended was done in time",
-                note="share of the plan that was done at the end of the lift",
-                caption="Finished: share of the plan done.",
-            ),
-        ),
-        Metric(
             name="settling_ms",
             symbol="settling",
             label="Time to the right pose",
@@ -56,6 +39,23 @@ INTENT_METRICS: Final = metric_table(
                 absent="fails",
                 present="that did not fail",
                 note="until the robot's end stays within 10 mm of where it should be",
+            ),
+        ),
+        Metric(
+            name="finished",
+            symbol="finished",
+            label="Share of the plan done",
+            better="more",
+            missing="never",
+            shown="board",
+            meaning="share of the plan that person and robot have gone through at the end, to the "
+            "frame in which the table is down; less if the person still waits, or if an end is "
+            "more than 50 mm above the ground",
+            words=MetricWords(
+                noun="share of the plan done",
+                plain="how much of what the human intended was done in time",
+                note="share of the plan that was done at the end of the lift",
+                caption="Finished: share of the plan done.",
             ),
         ),
         Metric(

@@ -112,8 +112,8 @@ class Intent(Touch):
         )
         return {
             "rmse_mm": self.rmse_mm(lift, trace),
-            "finished": self._finished(lift),
             "settling_ms": nan if failed else settling_ms(far, strokes),
+            "finished": self._finished(lift),
             "peak_mm": nan if failed else peak_mm(far, strokes),
             "near_rmse_mm": nan if empty else pose_rmse_mm((near,), len(near)),
             "max_tilt_deg": tilt,
