@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import (
     Estimate,
@@ -34,6 +35,8 @@ class RankedPolicy:
     """RMSE over that of the human-human baseline: below 1 is better than a human partner."""
     better_than_human: float
     """Probability that its mean RMSE on such lifts is below the human-human baseline's."""
+    rougher: tuple[str, ...] | None
+    """Metrics by which it is rougher than two people; None if that is not known."""
     metrics: Mapping[str, Estimate | None]
     """The other metrics that boards show, over the lifts that have a value; None if none has."""
     to_best: PairedDifference | None
@@ -111,6 +114,7 @@ def rank_policies(
                 rmse_mm=scores.error,
                 vs_human=scores.against(human_human).ratio,
                 better_than_human=scores.against(human_human).probability,
+                rougher=rougher(scores, human_human, results.suite.metrics),
                 metrics={each.name: scores.estimate(each.name) for each in results.metrics},
                 to_best=difference,
             )

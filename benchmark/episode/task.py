@@ -37,8 +37,6 @@ class Playing(Protocol):
     """Frames since its beginning."""
     command: float
     """The robot's hand command [m]."""
-    hand: float
-    """Height of the hands at the far end by their encoders [m]."""
     visual: int
     """The human's visual delay in frames."""
     haptic: int
@@ -55,6 +53,10 @@ class Playing(Protocol):
     """Plan, series and numbers, as rules read them."""
     intention: Any
     """The person's intention in the coming step; see :meth:`.Person.intend`."""
+
+    @property
+    def hand(self) -> float:
+        """Height of the hands at the far end by their encoders [m]."""
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""

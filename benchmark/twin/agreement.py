@@ -118,7 +118,6 @@ class Rules(NamedTuple):
         )
         return self.task.missed(LIFTS, due, ends), self.task.lost(LIFTS, ends)
 
-
     def left(self, past: Past) -> Any:
         """Return how many frames of the plan are unfinished."""
         return self.task.unfinished(LIFTS, self.drawn, past)
@@ -157,9 +156,8 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
         assert isinstance(task, Touch)
         human, size = lift.human(), lift.frames_per_step
         rules = Rules(task, drawn_arrays(lift), size)
-        decide, drive, judge, left = map(
-            jax.jit, (rules.decide, rules.drive, rules.judge, rules.left)
-        )
+        decide, drive, judge = jax.jit(rules.decide), jax.jit(rules.drive), jax.jit(rules.judge)
+        left = jax.jit(rules.left)
         memory = rules.begin()
         while not lift.done:
             memory, intention, sensed = decide(memory, past_of(lift))

@@ -142,9 +142,7 @@ class TaskTwin:
             step=state.step + 1,
         ), ends
 
-    def missed(
-        self, state: TouchState, after: TouchState, lifts: TouchLifts, ends: Ends
-    ) -> Missed:
+    def missed(self, state: TouchState, after: TouchState, lifts: TouchLifts, ends: Ends) -> Missed:
         """Return the contributions of a step to the error, from the states before and after it.
 
         After a lift is lost, each frame of the steps that follow counts with
@@ -167,8 +165,10 @@ class TaskTwin:
         return Missed(squares, jnp.where(after.step == lifts.steps, left, 0.0))
 
     def score_mm(self, lifts: TouchLifts, missed: Missed) -> jax.Array:
-        """Return the scores (n,) [mm] from the contributions of all steps, a first axis; see
-        :meth:`.Touch.rmse_mm`."""
+        """Return the scores (n,) [mm] from the contributions of all steps, stacked.
+
+        The rule is that of :meth:`.Touch.rmse_mm`.
+        """
         squares = [
             gathered(each.reshape(-1, lifts.size), stay)
             for each, stay in zip(missed.squares, self.task.stays, strict=True)

@@ -57,6 +57,9 @@ class HiddenScores:
     """The same as for the public episodes."""
     better_than_human: float
     """Probability that its mean RMSE on such episodes is below the human-human baseline's."""
+    rougher: tuple[str, ...] | None = None
+    """Names of the metrics by which it is rougher than two people; None in a row of a season in
+    which this was not known."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -128,7 +128,7 @@ class StallTop(Level):
 
 
 class Sweep(Level):
-    """At the top, up and down over all heights where a hurdle may be, whatever it knows or feels."""
+    """At the top, up and down over all heights where a hurdle may be, knowing nothing."""
 
     size, period = 0.05, 12
 

@@ -13,9 +13,8 @@ from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
 
 STAY: Final = 20
-"""Frames for which the table has to be at a hurdle, 0.2 s: who crosses a height has not found it. It
-is the time after which a person takes a rest there as intended
-(:data:`~colift.benchmark.tasks.agree.precedence.SERVED`)."""
+"""Frames for which the table has to be at a hurdle, 0.2 s: who only crosses it has not found it.
+After this time a person takes a rest there as intended (:data:`.precedence.SERVED`)."""
 
 PASSED: Final = 0.01
 """Root mean square distance of both ends from a hurdle within which the table passes it [m]."""

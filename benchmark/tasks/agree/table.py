@@ -30,8 +30,8 @@ AGREE_METRICS: Final = metric_table(
             unit="mm",
             digits=1,
             shown="board",
-            meaning="distance of the table from the human's hurdle in the best 0.2 s of its window, "
-            "root mean square of both ends",
+            meaning="distance of the table from the human's hurdle in the best 0.2 s of its "
+            "window, root mean square of both ends",
         ),
         Metric(
             name="robot_hurdle_mm",
@@ -65,6 +65,7 @@ AGREE_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
         ),

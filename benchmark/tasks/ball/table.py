@@ -105,6 +105,7 @@ BALL_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the weight of table and ball",
             words=MetricWords(

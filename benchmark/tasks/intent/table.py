@@ -93,6 +93,7 @@ INTENT_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
             words=MetricWords(

@@ -25,7 +25,6 @@ from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
 from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
-
 DOWN: Final = 0.05
 """Height of an end [m] up to which the table counts as put down."""
 
@@ -63,9 +62,7 @@ class Intent(Touch):
     second_human: ClassVar[type[Agent]] = Companion
     behaviours: ClassVar[tuple[str, ...]] = ("together", "pivot", "counter", "switching")
 
-    def setting(
-        self, plan: Plan, frames: int, seed: Callable[[str], int]
-    ) -> tuple[Pose, Lowering]:
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Pose, Lowering]:
         """Return the planned heights of both ends, and the last movement."""
         far = plan.far if isinstance(plan, PosePlan) else plan.target
         start, stop = plan.strokes[-1] if plan.strokes else (0, 0)
