@@ -12,13 +12,22 @@ LIFTED = 0.1
 STEADY = 0.004
 """Change of the seen height in a step [m] below which the human rests."""
 
+TWO_PEOPLE = "two people"
+
 SWEPT = 28
 """Steps of a sweep: longer than any window of a hurdle."""
 
 
 class Level:
-    """Goes to the extrapolated height of the human; the others depart from it."""
+    """Goes to the extrapolated height of the human; the others depart from it.
 
+    ``task`` is what it plays. ``behind`` are policies whose mean error must be smaller; ``marked``
+    is whether it must carry the mark of those rougher than two people.
+    """
+
+    task = "level"
+    behind = (TWO_PEOPLE,)
+    marked = False
     ahead = 2.0
 
     def reset(self, seed):
@@ -42,14 +51,22 @@ class Level:
 
 
 class Tremble(Level):
-    """4 mm up and down in turn."""
+    """4 mm up and down in turn: about as level as two people."""
+
+    behind = ("extrapolate",)
+    marked = True
 
     def goal(self, observation, kept):
         return kept + 0.004 * (-1) ** self.step
 
 
 class DeadZone(Level):
-    """Jumps as soon as it is 1 cm off, and does not move before."""
+    """Jumps as soon as it is 1 cm off, and does not move before.
+
+    It is about as level as two people, and by no measure rougher: people tremble more.
+    """
+
+    behind = ("extrapolate",)
 
     def goal(self, observation, kept):
         command = observation[Seen.HAND_COMMAND]
@@ -118,6 +135,9 @@ class FarLead(Level):
 class StallTop(Level):
     """Level until the human first rests; then it never moves again."""
 
+    task = "intent"
+    behind = (TWO_PEOPLE, "touch_level", "anticipate", "extrapolate")
+
     def reset(self, seed):
         super().reset(seed)
         self.stalled = False
@@ -130,6 +150,8 @@ class StallTop(Level):
 class Sweep(Level):
     """At the top, up and down over all heights where a hurdle may be, knowing nothing."""
 
+    task = "agree"
+    behind = (TWO_PEOPLE, "anticipate", "extrapolate")
     size, period = 0.05, 12
 
     def reset(self, seed):
