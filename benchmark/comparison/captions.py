@@ -149,10 +149,10 @@ def provenance(comparison: Comparison, version: str) -> str:
     return f"colift {version}, suite {suite.name}, digest {suite.digest}, {lifts} lifts{over}"
 
 
-def parts_caption(kind: str, rankings: Sequence[Ranking]) -> str:
-    """Return the caption of the table by one kind of subset, such as behaviours."""
+def parts_caption(rankings: Sequence[Ranking]) -> str:
+    """Return the caption of the table by behaviour."""
     return (
-        f"RMSE in mm for each {kind}; below it, the difference to the best policy of the column, "
+        "RMSE in mm for each behaviour; below it, the difference to the best policy of the column, "
         f"with its 95 % interval. {marks_caption('Bold', rankings)}"
     )
 

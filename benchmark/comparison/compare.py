@@ -1,4 +1,4 @@
-"""The comparison of policies: on all episodes, by behaviour, by subject; their Pareto front."""
+"""The comparison of policies: on all episodes and by behaviour; their Pareto front."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,6 @@ class Comparison:
     overall: Ranking
     """On all episodes."""
     behaviours: tuple[Ranking, ...]
-    subjects: tuple[Ranking, ...]
     points: tuple[FrontPoint, ...]
     """The policies, the least error first; then the human-human baseline and the bounds."""
 
@@ -26,15 +25,9 @@ class Comparison:
         _, second = self.results.axes
         return tuple(point.name for point in pareto_front(self.points, second))
 
-    @property
-    def one_each(self) -> bool:
-        """Whether each behaviour has one subject of its own: lifts by both are the same groups."""
-        pairs = set(self.results.human_human.strata)
-        return len(pairs) == len(self.behaviours) == len(self.subjects)
-
 
 def compare(results: PairedResults) -> Comparison:
-    """Return the comparison of the policies: overall, on each behaviour, with each subject."""
+    """Return the comparison of the policies: overall, and on each behaviour."""
     overall = rank_policies(results, "all", "all", range(len(results.human_human.strata)))
     return Comparison(
         results=results,
@@ -42,7 +35,6 @@ def compare(results: PairedResults) -> Comparison:
         behaviours=_parts(
             results, "behaviour", [behaviour for behaviour, _ in results.human_human.strata]
         ),
-        subjects=_parts(results, "subject", [subject for _, subject in results.human_human.strata]),
         points=_points(results, overall),
     )
 

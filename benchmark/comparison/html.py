@@ -19,13 +19,8 @@ AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better th
 
 
 def html_page(comparison: Comparison) -> str:
-    """Return the page: picture, ranks, differences, tables by behaviour and by subject.
-
-    If each behaviour has one subject of its own, both tables would have the same numbers.
-    """
-    kinds = [("behaviour", comparison.behaviours)]
-    if not comparison.one_each:
-        kinds.append(("subject", comparison.subjects))
+    """Return the page: picture, ranks, differences, and the table by behaviour."""
+    rankings = comparison.behaviours
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
     return render(
@@ -56,15 +51,9 @@ def html_page(comparison: Comparison) -> str:
         ranks=_ranks(comparison),
         against_header=AGAINST,
         against=_against(comparison),
-        parts=[
-            {
-                "kind": kind,
-                "caption": captions.parts_caption(kind, rankings),
-                "header": ("policy", *(ranking.name for ranking in rankings)),
-                "rows": _parts(comparison, rankings),
-            }
-            for kind, rankings in kinds
-        ],
+        parts_caption=captions.parts_caption(rankings),
+        parts_header=("policy", *(ranking.name for ranking in rankings)),
+        parts=_parts(comparison, rankings),
         provenance=captions.provenance(comparison, version("colift")),
     )
 

@@ -1,4 +1,4 @@
-"""Policies ranked on all episodes, on one behaviour or with one subject."""
+"""Policies ranked on all episodes, or on one behaviour."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from colift.benchmark.statistics import (
     rank_groups,
 )
 
-SubsetKind = Literal["all", "behaviour", "subject"]
+SubsetKind = Literal["all", "behaviour"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +57,7 @@ class Ranking:
 
     kind: SubsetKind
     name: str
-    """The behaviour or the subject; ``all`` for all episodes."""
+    """The behaviour; ``all`` for all episodes."""
     episodes: int
     references_rmse_mm: Mapping[str, Estimate]
     """RMSE of each of :attr:`.PairedResults.references`."""
@@ -87,7 +87,7 @@ def rank_policies(
     results
         Results of the policies, baseline and bounds.
     kind, name
-        Kind and name of the subset: a behaviour, a subject, or all.
+        Kind and name of the subset: a behaviour, or all.
     members
         Indices of the episodes, in the suite's order.
     """
