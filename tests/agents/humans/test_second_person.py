@@ -88,7 +88,7 @@ def test_it_gives_way_to_what_it_feels():
     for force in (0.0, 1.0):
         partner = noiseless(0.05)
         heights.append(partner.act(view(still, still, force=force))[-1])
-    assert heights[0] - heights[1] == pytest.approx(0.12 * 0.064, rel=1e-6)
+    assert heights[0] - heights[1] == pytest.approx(0.12 * 0.064, rel=0.03)
 
 
 @pytest.mark.parametrize(("yielding", "swings"), [(0.12, False), (0.24, False), (0.5, True)])
