@@ -91,8 +91,8 @@ class BoardRow:
     hidden: HiddenScores
     """Scores on the hidden episodes."""
     gap: Estimate
-    """``vs_human`` on the hidden episodes over that on the public ones: near 1 for an honest policy.
-    Both are relative to two people on the same lifts, so that other people leave it as it is."""
+    """``vs_human`` on the hidden episodes over that on the public ones: near 1 for an honest
+    policy, since each is relative to two people on the same lifts."""
     isolation: str
     """Isolation level of the policy."""
     verified: bool

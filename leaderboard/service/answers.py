@@ -46,8 +46,8 @@ class StandingAnswer(Answer):
     """A row, and its place in its season."""
 
     rank: int
-    """Rank in its section over all hidden episodes: 1 + the number of policies that are better beyond
-    chance; 0 is none."""
+    """Rank in its section over all hidden episodes: 1 + the number of policies that are better
+    beyond chance; 0 is none."""
     pending: bool
     """Whether its rank is still being computed."""
     section: Section

@@ -29,7 +29,8 @@ from colift.leaderboard.views.picture import PICTURED, pictures
 Reference = Mapping[str, Any]
 """A line below the policies: the human-human baseline, or a ``bound``.
 
-``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the other metrics, all None on a part of the lifts.
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
+other metrics, all None on a part of the lifts.
 """
 
 
@@ -197,7 +198,7 @@ def _bound(bound: PublicBound, part: Part | None) -> Reference:
 
 def _numbers(
     stratum: StratumScore, metrics: Sequence[str]
-) -> list[float | None | list[float | None]]:
+) -> list[float | list[float | None] | None]:
     found = [stratum.metrics[name] for name in metrics]
     means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
     ratio = None if stratum.vs_human is None else round(stratum.vs_human, 4)
