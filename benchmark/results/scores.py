@@ -2,7 +2,7 @@
 
 import functools
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
 
@@ -24,6 +24,7 @@ from colift.benchmark.statistics import (
     paired_difference,
     probability_better,
 )
+from colift.benchmark.suites.suite import Suite
 
 Stratum = tuple[str, str]
 """Behaviour and subject."""
@@ -57,17 +58,33 @@ class ScoreTable:
     @classmethod
     def of(cls, run: Run) -> Self:
         """Return the scores of a run."""
-        metrics = run.suite.metrics
-        values = {name: array("d", (e.scores[name] for e in run.episodes)) for name in metrics}
+        return cls.of_lifts(run.suite, enumerate(run.episodes))
+
+    @classmethod
+    def of_lifts(cls, suite: Suite, lifts: Iterable[tuple[int, Episode]]) -> Self:
+        """Return the scores of episodes that come with their places, in any order; none is kept."""
+        metrics, people = suite.metrics, _people(suite)
         known: dict[Stratum, Stratum] = {}
-        strata = tuple(known.setdefault(each, each) for each in map(stratum, run.episodes))
-        boards = (metric.name for metric in on_boards(metrics))
+        rows: dict[int, tuple[Stratum, str, str | None, array[float]]] = {}
+        for place, each in lifts:
+            where = stratum(each)
+            who = people.get((*where, each.trial), each.subject)
+            scores = array("d", (each.scores[name] for name in metrics))
+            rows[place] = known.setdefault(where, where), who, each.failure, scores
+        in_order = [rows[place] for place in sorted(rows)]
+        values = {
+            name: array("d", (scores[i] for _, _, _, scores in in_order))
+            for i, name in enumerate(metrics)
+        }
+        named = all(who == subject for (_, subject), who, _, _ in in_order)
         return cls(
-            strata=strata,
-            people=_people(run, strata),
+            strata=tuple(where for where, _, _, _ in in_order),
+            people=() if named else tuple(who for _, who, _, _ in in_order),
             values=values,
-            means={name: mean_with_missing(values[name]).mean for name in boards},
-            failures=tuple(episode.failure for episode in run.episodes),
+            means={
+                each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
+            },
+            failures=tuple(failure for _, _, failure, _ in in_order),
         )
 
     @functools.cached_property
@@ -181,12 +198,11 @@ class ScoreTable:
         )
 
 
-def _people(run: Run, strata: Sequence[Stratum]) -> tuple[str, ...]:
-    """Return the person of each episode; nothing if these are the subjects."""
-    known = {(each.behaviour, each.subject.name, each.trial): each for each in run.suite.scenarios}
-    keys = [(*where, each.trial) for where, each in zip(strata, run.episodes, strict=True)]
-    people = tuple(known[key].person if key in known else key[1] for key in keys)
-    return () if all(one == key[1] for one, key in zip(people, keys, strict=True)) else people
+def _people(suite: Suite) -> dict[tuple[str, str, str], str]:
+    """Return the person of each behaviour, subject and trial."""
+    return {
+        (each.behaviour, each.subject.name, each.trial): each.person for each in suite.scenarios
+    }
 
 
 class _Stored(msgspec.Struct):
