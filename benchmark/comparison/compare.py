@@ -1,11 +1,15 @@
-"""The comparison of policies: on all episodes and by behaviour; their Pareto front."""
+"""The comparison of policies: on all episodes, by behaviour, by subject; their Pareto front."""
 
 from dataclasses import dataclass
+from typing import Final
 
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.comparison.ranking import Ranking, SubsetKind, rank_policies
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+
+MOST_SUBJECTS: Final = 10
+"""Most subjects for results by subject: of more, each has a few lifts, which say nothing alone."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -16,6 +20,8 @@ class Comparison:
     overall: Ranking
     """On all episodes."""
     behaviours: tuple[Ranking, ...]
+    subjects: tuple[Ranking, ...]
+    """Nothing where there are more than :data:`MOST_SUBJECTS`."""
     points: tuple[FrontPoint, ...]
     """The policies, the least error first; then the human-human baseline and the bounds."""
 
@@ -25,9 +31,16 @@ class Comparison:
         _, second = self.results.axes
         return tuple(point.name for point in pareto_front(self.points, second))
 
+    @property
+    def one_each(self) -> bool:
+        """Whether each behaviour has one subject of its own: lifts by both are the same groups."""
+        pairs = set(self.results.human_human.strata)
+        return len(pairs) == len(self.behaviours) == len(self.subjects)
+
 
 def compare(results: PairedResults) -> Comparison:
-    """Return the comparison of the policies: overall, and on each behaviour."""
+    """Return the comparison of the policies: overall, on each behaviour, with each subject."""
+    subjects = [subject for _, subject in results.human_human.strata]
     overall = rank_policies(results, "all", "all", range(len(results.human_human.strata)))
     return Comparison(
         results=results,
@@ -35,6 +48,9 @@ def compare(results: PairedResults) -> Comparison:
         behaviours=_parts(
             results, "behaviour", [behaviour for behaviour, _ in results.human_human.strata]
         ),
+        subjects=_parts(results, "subject", subjects)
+        if len(set(subjects)) <= MOST_SUBJECTS
+        else (),
         points=_points(results, overall),
     )
 

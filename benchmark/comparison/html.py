@@ -19,8 +19,13 @@ AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better th
 
 
 def html_page(comparison: Comparison) -> str:
-    """Return the page: picture, ranks, differences, and the table by behaviour."""
-    rankings = comparison.behaviours
+    """Return the page: picture, ranks, differences, tables by behaviour and by subject.
+
+    If each behaviour has one subject of its own, both tables would have the same numbers.
+    """
+    kinds = [("behaviour", comparison.behaviours)]
+    if comparison.subjects and not comparison.one_each:
+        kinds.append(("subject", comparison.subjects))
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
     return render(
@@ -51,9 +56,15 @@ def html_page(comparison: Comparison) -> str:
         ranks=_ranks(comparison),
         against_header=AGAINST,
         against=_against(comparison),
-        parts_caption=captions.parts_caption(rankings),
-        parts_header=("policy", *(ranking.name for ranking in rankings)),
-        parts=_parts(comparison, rankings),
+        parts=[
+            {
+                "kind": kind,
+                "caption": captions.parts_caption(kind, rankings),
+                "header": ("policy", *(ranking.name for ranking in rankings)),
+                "rows": _parts(comparison, rankings),
+            }
+            for kind, rankings in kinds
+        ],
         provenance=captions.provenance(comparison, version("colift")),
     )
 
@@ -71,7 +82,7 @@ def _baseline_row(comparison: Comparison, name: str) -> Row:
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
-        Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
+        Cell(f"{overall.references_vs_human[name].mean:.2g}"),
         *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.results.metrics),
         Cell(""),
     ]

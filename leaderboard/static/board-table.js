@@ -48,12 +48,10 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
   const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
 
   // Means over the public lifts of the chosen behaviour.
-  function scores(row, chosen, humanHuman) {
-    const [rmse, ...metrics] = data.rows[row.index][chosen] || [null, ...names.map(() => [null, 0])];
-    return {
-      rmse, ratio: rmse !== null && humanHuman ? rmse / humanHuman : null,
-      metrics: metrics.map(([mean, missing]) => ({ mean, missing })),
-    };
+  function scores(row, chosen) {
+    const [rmse, ratio, ...metrics] =
+      data.rows[row.index][chosen] || [null, null, ...names.map(() => [null, 0])];
+    return { rmse, ratio, metrics: metrics.map(([mean, missing]) => ({ mean, missing })) };
   }
 
   // The order of the whole table: the best first, then values that are missing in some lifts.
@@ -105,7 +103,7 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     const humanHuman = data.behaviours[chosen][1];
     table.classList.add("part");
     for (const row of rows) {
-      const found = scores(row, chosen, humanHuman);
+      const found = scores(row, chosen);
       show(row.stratum.rmse, found.rmse, write(found.rmse, 1));
       show(row.stratum.ratio, found.ratio, write(found.ratio, 2));
       found.metrics.forEach((each, i) => show(row.stratum[names[i]], sortKey(data.metrics[i], each),
@@ -114,9 +112,10 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     }
     let causal = null;
     for (const row of baselines) {
-      const rmse = row.bound === undefined ? humanHuman : data.bounds[row.bound][chosen];
+      const [rmse, ratio] = row.bound === undefined ?
+        [humanHuman, humanHuman === null ? null : 1] : data.bounds[row.bound][chosen];
       show(row.stratum.rmse, rmse, write(rmse, 1));
-      show(row.stratum.ratio, null, write(rmse === null || !humanHuman ? null : rmse / humanHuman, 2));
+      show(row.stratum.ratio, null, write(ratio, 2));
       for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
       if (row.tr.dataset.causal !== undefined) causal = rmse;

@@ -13,6 +13,7 @@ from colift.benchmark.results.strata import (
     human_human_mean,
     mean_of_strata,
     spread_over_people,
+    vs_human_mean,
 )
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
@@ -113,6 +114,7 @@ def _behaviour(visit: Visit, season: str, behaviour: str) -> Content:
             {
                 "standing": each,
                 "rmse_mm": estimate,
+                "ratio": vs_human_mean(some),
                 "spread": spread_over_people(some),
                 "episodes": sum(one.episodes for one in some),
                 "failed": sum(one.failed for one in some),

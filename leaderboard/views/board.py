@@ -6,7 +6,12 @@ from typing import Any, Final
 from weakref import WeakKeyDictionary
 
 from colift.benchmark.episode.metric import LEADING
-from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    vs_human_mean,
+)
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import HumanHumanScores
@@ -30,8 +35,8 @@ from colift.leaderboard.views.picture import PICTURED, pictures
 Reference = Mapping[str, Any]
 """A line below the policies: the human-human baseline, or a ``bound``.
 
-``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
-baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
+other metrics, all None on a part of the lifts.
 """
 
 
@@ -128,8 +133,9 @@ def _drawn(
     """Return the data that the page's script shows: each row's public lifts, by behaviour.
 
     ``behaviours`` has their names and the human-human RMSE [mm]; ``rows`` has, for each row of the
-    table in its order and each behaviour, the RMSE [mm], then for each of ``metrics`` the mean and
-    the lifts without a value; ``bounds`` has each bound's RMSE [mm].
+    table in its order and each behaviour, the RMSE [mm] and ``vs_human``, then for each of
+    ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm] and
+    ``vs_human``.
     """
     metrics, parts = board_metrics(suite), parts_of(strata)[1:]
     return {
@@ -147,7 +153,11 @@ def _drawn(
             for row in rows
         ],
         "bounds": [
-            [round(each.scores.part(part.behaviour).mean, 4) for part in parts] for each in bounds
+            [
+                [round(value, 4) for value in each.numbers[behaviour]]
+                for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata)
+            ]
+            for each in bounds
         ],
     }
 
@@ -159,7 +169,7 @@ def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
-        marks = () if human_human is None else (human_human.rmse_mm.ci95[1],)
+        marks = () if human_human is None else (human_human.rmse_mm.ends[1],)
         _axes[table] = make_axis(hidden, marks)
     return _axes[table]
 
@@ -180,13 +190,12 @@ def _people(
 
 
 def _bound(bound: PublicBound, part: Part | None) -> Reference:
-    tables = bound.scores, bound.human_human
     if part is None:
-        mine, people = tables
-        whole = mine.mean / people.mean
+        mine, people = bound.scores, bound.human_human
+        whole = mine.against(people).ratio.mean
         return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
-    mine, people = (each.part(part.behaviour) for each in tables)
-    rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
+    mean, ratio = bound.numbers.get(part.behaviour or "", (None, None))
+    rmse = None if mean is None else known(mean)
     means = dict.fromkeys(bound.means)
     return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
@@ -195,7 +204,8 @@ def _numbers(
     strata: Sequence[StratumScore], metrics: Sequence[str]
 ) -> list[float | list[float | None] | None]:
     rmse, *found = (mean_of_strata(strata, name) for name in (LEADING, *metrics))
-    return [_rounded(rmse.mean), *([_rounded(each.mean), each.missing] for each in found)]
+    means = ([_rounded(each.mean), each.missing] for each in found)
+    return [_rounded(rmse.mean), _rounded(vs_human_mean(strata)), *means]
 
 
 def _rounded(mean: float | None) -> float | None:

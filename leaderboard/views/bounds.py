@@ -47,6 +47,15 @@ class PublicBound:
         """Whether it sees no more than a policy."""
         return self.name == "causal bound"
 
+    @functools.cached_property
+    def numbers(self) -> dict[str, tuple[float, float]]:
+        """Mean RMSE [mm] and ``vs_human`` on each behaviour."""
+        found = {}
+        for behaviour in dict.fromkeys(behaviour for behaviour, _ in self.scores.strata):
+            mine, people = (each.part(behaviour) for each in (self.scores, self.human_human))
+            found[behaviour] = mine.mean, mine.against(people).ratio.mean
+        return found
+
     def mean_mm(self, behaviour: str) -> float:
         """Return the mean RMSE [mm] on a behaviour."""
         return self.scores.part(behaviour).mean

@@ -11,6 +11,7 @@ from colift.benchmark.results.strata import (
     human_human_mean,
     mean_of_strata,
     spread_over_people,
+    vs_human_mean,
 )
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.client import API
@@ -44,6 +45,8 @@ class PartScore:
     rmse_mm: Estimate
     human_human_mm: float | None
     """The human-human baseline's mean RMSE [mm]."""
+    ratio: float | None
+    """The RMSE over that of two people; see :func:`.vs_human_mean`."""
     blend_mm: float | None
     """The mean RMSE of ``blend`` [mm], if it is on the board."""
     spread: Spread | None
@@ -53,7 +56,7 @@ class PartScore:
 def policy_page(visit: Visit, season: str, digest: str) -> Content:
     """Return the row of a submission and its neighbours, or the reason for having none.
 
-    ``shared`` is the number of policies in its rank group, ``ranked`` that of those it is ranked
+    ``shared`` is the number of policies of its rank, ``ranked`` that of those it is ranked
     with. ``parts`` are all lifts and each behaviour. The ``failures`` are reasons with their public
     lifts, the most frequent first; ``worst`` is the lift of each behaviour with the largest error,
     whose replay is shown; ``history`` are all entries of the same name, in all seasons, newest
@@ -149,6 +152,7 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
                 failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
                 human_human_mm=human_human_mean(some),
+                ratio=vs_human_mean(some),
                 blend_mm=mean_of_strata(part.of(others)).mean,
                 spread=spread_over_people(some) if some else None,
             )

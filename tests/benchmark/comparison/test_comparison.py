@@ -49,6 +49,7 @@ def test_each_behaviour_has_its_own_winner(comparison: Comparison) -> None:
     winners = {ranking.name: ranking.policies[0].name for ranking in comparison.behaviours}
     assert winners["jerky"] == "follower"
     assert winners["smooth"] in ("leader", "twin")
+    assert [ranking.name for ranking in comparison.subjects] == ["S1", "S2"]
     assert [ranking.episodes for ranking in comparison.behaviours] == [16] * 4
 
 
@@ -115,22 +116,40 @@ def test_with_three_lifts_a_behaviour_none_is_the_best_there() -> None:
     for ranking in made.behaviours:
         assert not any(ranking.best(ranked) for ranked in ranking.policies)
     assert [made.overall.best(ranked) for ranked in made.overall.policies] == [True, False]
-    assert parts_caption(made.behaviours).endswith(
+    assert parts_caption("behaviour", made.behaviours).endswith(
         "No policy is marked as the best: 3 or 4 lifts per column are too few for a significant "
         "difference at 5 %."
     )
-    by_behaviour = html_page(made).split("<h2>By behaviour</h2>")[1].split("<h2>")[0]
+    by_behaviour = html_page(made).split("<h2>By behaviour</h2>")[1].split("<h2>By subject</h2>")[0]
     assert 'class="best"' not in by_behaviour
     told = comparison_json(made)
     assert [part["decisive"] for part in (told, *told["behaviours"])] == [True] + [False] * 4
 
 
-def test_a_front_of_one_has_no_line(comparison: Comparison) -> None:
+def test_a_front_of_one_has_no_line_and_equal_tables_are_shown_once(comparison: Comparison) -> None:
     axes = comparison.results.axes
     assert "The line joins the Pareto front: " in picture_caption(axes, ("leader", "follower"))
     alone = picture_caption(axes, ("leader",))
     assert "line joins" not in alone
     assert "leader alone is the Pareto front" in alone
+    full = comparison.results
+    labels = {subject: f"{subject} of one" for _, subject in full.human_human.strata}
+    assert len(labels) > 1
+    # Each behaviour with one subject of its own.
+    strata = tuple((f"by {labels[subject]}", subject) for _, subject in full.human_human.strata)
+    single = dataclasses.replace(
+        full,
+        policies=tuple(
+            dataclasses.replace(each, scores=dataclasses.replace(each.scores, strata=strata))
+            for each in full.policies
+        ),
+        human_human=dataclasses.replace(full.human_human, strata=strata),
+    )
+    assert not comparison.one_each
+    assert "By subject" in html_page(comparison)
+    page = html_page(compare(single))
+    assert "By behaviour" in page
+    assert "By subject" not in page
 
 
 def test_where_lifts_are_enough_the_best_are_marked(comparison: Comparison) -> None:

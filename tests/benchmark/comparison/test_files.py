@@ -47,7 +47,7 @@ def test_json_has_every_policy_in_every_part(folder: Path, comparison: Compariso
     content = json.loads((folder / "compare.json").read_text())
     assert content == json.loads(json.dumps(comparison_json(comparison)))
     names = {policy["name"] for policy in content["policies"]}
-    for part in content["behaviours"]:
+    for part in (*content["behaviours"], *content["subjects"]):
         assert {policy["name"] for policy in part["policies"]} == names
     fronts = {policy["name"]: policy["pareto_front"] for policy in content["policies"]}
     assert [name for name, on in fronts.items() if on] == ["leader", "follower"]
@@ -58,7 +58,7 @@ def test_csv_has_a_row_for_each_policy_and_part_and_no_value_where_there_is_none
     comparison: Comparison,
 ) -> None:
     rows = list(csv.DictReader(io.StringIO(comparison_csv(comparison))))
-    assert len(rows) == 5 * (1 + 4)
+    assert len(rows) == 5 * (1 + 4 + 2)
     first = rows[0]
     assert (first["scope"], first["policy"], first["to_best_p"]) == ("all", "leader", "")
     assert rows[4]["policy"] == "still"
@@ -102,7 +102,7 @@ def test_the_page_is_whole_and_needs_nothing_else(folder: Path, comparison: Comp
     assert all(target.startswith("#") for target in page.targets)
     assert "url(http" not in source
     assert "<script" not in source
-    for told in ("leader", "human-human baseline", "By behaviour", "jerky"):
+    for told in ("leader", "human-human baseline", "By behaviour", "By subject", "jerky", "S2"):
         assert told in page.text
     assert verdict(comparison) in page.text
     assert failures(comparison)[0] in page.text
