@@ -1,8 +1,8 @@
-"""A model of errors of policies with drawn people, of which all true means are known.
+r"""A model of errors of policies with drawn people, of which all true means are known.
 
 The logarithm of the error of policy p, in a lift with person u in behaviour b, is
 
-.. math:: \\ln e_{pub} = \\ln m_p + \\beta_b + a_u + c_{pu} + l_{ub} + r_{pub}
+.. math:: \ln e_{pub} = \ln m_p + \beta_b + a_u + c_{pu} + l_{ub} + r_{pub}
 
 with normal deviates: :math:`a_u` how difficult a person is, :math:`c_{pu}` how well a policy suits
 the person, :math:`l_{ub}` how difficult a lift is, :math:`r_{pub}` the rest. All policies share

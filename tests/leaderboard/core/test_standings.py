@@ -41,7 +41,7 @@ def counted(board):
 
 
 def ranks(board, season=None):
-    return [(each.group, each.row.name) for each in board.standings(season)]
+    return [(each.rank, each.row.name) for each in board.standings(season)]
 
 
 def test_an_empty_board_has_an_empty_table(board):
@@ -68,7 +68,7 @@ def test_who_cannot_be_told_apart_shares_a_rank(board, clock):
 def test_a_row_is_read_as_it_was_put_there(board, clock):
     entry = add(board, "mine", 12.0)
     (standing,) = board.standings("1")
-    assert (standing.group, standing.row, standing.at) == (1, make_row("mine", 12.0), clock.now)
+    assert (standing.rank, standing.row, standing.at) == (1, make_row("mine", 12.0), clock.now)
     assert (standing.events, standing.submitter, standing.ranked) == ((), "Ada", True)
     assert board.entry("1", digest("mine")) == entry
     assert board.entry("1", "0" * 64) is None
@@ -121,7 +121,7 @@ def test_what_is_not_real_time_is_ranked_apart_and_what_is_unverified_is_not_ran
     add(board, "slow", 5.0, change=slow)
     add(board, "slower", 20.0, change=slow)
     add(board, "free", 1.0, change=unverified)
-    told = [(each.section, each.group, each.row.name) for each in board.standings()]
+    told = [(each.section, each.rank, each.row.name) for each in board.standings()]
     assert told == [
         ("ranking", 1, "good"),
         ("ranking", 2, "bad"),
@@ -185,7 +185,7 @@ def test_the_data_frame_has_the_rows_in_the_order_of_the_table(board):
     add(board, "a", 10.0)
     frame = board.ranking("1")
     assert list(frame["name"]) == ["a", "b"]
-    assert list(frame["group"]) == [1, 2]
+    assert list(frame["rank"]) == [1, 2]
     assert list(frame["rmse_mm"]) == [10.0, 15.0]
     assert frame["authors"][0] == "Ada Lovelace, Grace Höpper"
 
