@@ -14,7 +14,10 @@ from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference excludes zero."""
 
-RANK: Final = "Rank: 1 + the number of policies that are better beyond chance."
+RANK: Final = (
+    "Rank: 1 + the number of policies that are better beyond chance; a larger error never has a "
+    "smaller rank."
+)
 """What a rank means, in one sentence."""
 
 _RANK, _BASELINE, _INTERVALS = (

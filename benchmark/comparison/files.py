@@ -22,7 +22,7 @@ from colift.benchmark.suites.treatments import plain_treatments
 
 
 def comparison_json(comparison: Comparison) -> dict[str, Any]:
-    """Return the content of ``compare.json``: policies in the order of their ranks.
+    """Return the content of ``compare.json``: policies in the order of their mean RMSE.
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
     A policy has the numbers of :class:`.RankedPolicy`. Where ``decisive`` is false, the

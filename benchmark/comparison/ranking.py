@@ -24,7 +24,7 @@ class RankedPolicy:
 
     name: str
     rank: int
-    """1 + the number of policies that are better beyond chance; see :func:`.all_pairs`."""
+    """1 + the number of policies that are better beyond chance; see :attr:`.Family.ranks`."""
     scores: ScoreTable
     """Its scores on these lifts."""
     rmse_mm: Estimate
@@ -65,7 +65,7 @@ class Ranking:
     references_vs_human: Mapping[str, Estimate]
     """Its ratio to the human-human baseline."""
     policies: tuple[RankedPolicy, ...]
-    """In the order of the ranks, those of one rank in that of the mean RMSE, the best first."""
+    """In the order of the mean RMSE, the best first; ranks have the same order."""
     people: int
     """Number of people in these episodes."""
     decisive: bool

@@ -57,13 +57,14 @@ class Family:
 
     @functools.cached_property
     def ranks(self) -> dict[str, int]:
-        """The rank of each policy: 1 + the number of policies that are better beyond chance.
+        """The rank of each policy, in the order of their means.
 
-        They are in the order of the ranks, policies of one rank in that of their means.
+        It is 1 + the number of policies that are better beyond chance, and at least the rank of any
+        policy with a smaller mean: who varies so much that nobody can be told from them does not
+        pass those who are better.
         """
-        better = np.tril(self.ps <= self.level, -1).sum(axis=1)
-        order = better.argsort(kind="stable")
-        return {self.names[i]: 1 + int(better[i]) for i in order}
+        better = np.maximum.accumulate(np.tril(self.ps <= self.level, -1).sum(axis=1))
+        return {name: 1 + int(count) for name, count in zip(self.names, better, strict=True)}
 
     @functools.cached_property
     def _places(self) -> dict[str, int]:

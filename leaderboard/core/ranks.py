@@ -95,15 +95,15 @@ def fingerprint(scored: Scored) -> str:
 def compute_ranks(database: Database, season: str, scored: Scored, people: Units | None) -> None:
     """Compute and store the ranks of some submissions; each section is ranked by itself.
 
-    See :func:`.all_pairs`. If the people are too few to tell any two apart, the rank is 0.
+    See :attr:`.Family.ranks`. If the people are too few to tell any two apart, the rank is 0.
 
     Parameters
     ----------
     database, season, scored
         The season's submissions.
     people
-        The people of its hidden lifts. None if they are not known, since no baseline has been
-        played: then each lift counts as one person.
+        The people of its hidden lifts. Where they are not known, since no baseline has been played
+        on these lifts, each lift counts as one person.
     """
     sections: list[tuple[str, ...]] = []
     ranks: dict[str, int] = {}
@@ -111,7 +111,8 @@ def compute_ranks(database: Database, season: str, scored: Scored, people: Units
         with database.reading() as connection:
             errors = read_errors(connection, season, numbers)
         lifts = min((len(each) for each in errors.values()), default=0)
-        units = people or Units.episodes(["hidden"] * lifts)
+        known = people is not None and len(people.unit) == lifts
+        units = people if people and known else Units.episodes(["hidden"] * lifts)
         found = all_pairs(errors, units).ranks
         told = decisive(units.count) or len(errors) == 1
         ranks |= {each: rank if told else 0 for each, rank in found.items()}

@@ -28,7 +28,7 @@ class RankedRow:
     """A row with its rank and its events."""
 
     rank: int
-    """1 + the number of policies of its section that are better beyond chance. 0 is none: the
+    """Rank in its section, see :attr:`.Family.ranks`; 1 is the best. 0 is none: the
     section has no ranks, the people are too few to tell any two policies apart, or the rank is
     ``pending``."""
     row: BoardRow

@@ -49,7 +49,7 @@ class Table:
 
     @functools.cached_property
     def sizes(self) -> Mapping[int, int]:
-        """Number of policies in each rank group of the ranking."""
+        """Number of policies of each rank of the ranking."""
         return Counter(each.rank for each in self.ranking)
 
     @functools.cached_property

@@ -27,7 +27,7 @@ def test_rows_stand_in_the_order_of_the_ranking(page, front, names, folder):
     page.goto(front)
     board = Board.open(folder)
     assert names(page) == [each.row.name for each in board.standings() if each.ranked]
-    groups = [str(each.group or "\N{EN DASH}") for each in board.standings()]
+    groups = [str(each.rank or "\N{EN DASH}") for each in board.standings()]
     board.close()
     assert page.locator("tr[data-row] td.rank").all_text_contents() == groups
     assert numbers(page, "rmse") == sorted(numbers(page, "rmse"))

@@ -235,7 +235,7 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     assert text.index("Not real-time") < text.index("snail") < text.index("Out of the ranking")
     for page, words in zip(pages, told.values(), strict=True):
         assert (page.status_code, words in page.text) == (200, True)
-    assert [(each["section"], each["group"]) for each in api.json()] == [
+    assert [(each["section"], each["rank"]) for each in api.json()] == [
         ("ranking", 1),
         ("not real-time", 1),
         ("unverified", 0),
