@@ -13,6 +13,7 @@ from colift.benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
 from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
 from colift.benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from colift.benchmark.comparison.compare import compare
+from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
@@ -136,8 +137,8 @@ def _ablation_table(found: list[Ablation], suite: str) -> Table:
 def _difference(difference: Estimate | None, digits: int = 2) -> str:
     if difference is None:
         return ""
-    low, high = difference.ci95
-    return f"{difference.mean:+.{digits}f} ({low:+.{digits}f} to {high:+.{digits}f})"
+    interval = between(difference.ci95, f"+.{digits}f")
+    return f"{difference.mean:+.{digits}f}" + (f" ({interval})" if interval else "")
 
 
 def sweep_rates(

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from colift.benchmark.admission.played import Played
 from colift.benchmark.statistics import FloatArray, Interval, holm_correction
-from colift.benchmark.statistics.student import quantile, survival
+from colift.benchmark.statistics.student import t_cdf, t_quantile
 from numpy.typing import NDArray
 
 FAMILY: Final = 0.05
@@ -107,9 +107,9 @@ def _tested(first: FloatArray, second: FloatArray, tail: float) -> _Tested:
     spread = np.where(chosen > 0, without - mean[:, np.newaxis], 0.0)
     error = np.sqrt(np.maximum(people - 1, 0) / np.maximum(people, 1) * (spread**2).sum(axis=1))
     known = (people >= 2) & (error > 0)
-    reach = np.array([quantile(tail, max(number - 1, 1)) for number in people.tolist()])
+    reach = np.array([t_quantile(1.0 - tail, max(number - 1, 1)) for number in people.tolist()])
     p = [
-        survival(lead / wide, number - 1) if tested else 1.0
+        max(1.0 - t_cdf(lead / wide, number - 1), 0.0) if tested else 1.0
         for lead, wide, number, tested in zip(
             mean.tolist(), error.tolist(), people.tolist(), known.tolist(), strict=True
         )

@@ -114,7 +114,7 @@ def table_notes(table: TableOne) -> list[str]:
 
 
 def _texts(row: SubjectRow) -> tuple[str, ...]:
-    low, high = row.difference.ci95
+    low, high = row.difference.ends
     return (
         row.subject,
         *_cells(row.reactive),

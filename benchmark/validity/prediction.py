@@ -41,16 +41,17 @@ def predict(source: Scores, suite: Scores) -> SuitePrediction:
     .. math:: \text{factor} = \exp\left(\operatorname{median}_p |\ln (r_p / s_p)|\right), \quad
         \text{bias} = \exp\left(\operatorname{median}_p \ln (r_p / s_p)\right)
 
-    The intervals are of resamples of the lifts of both, each with the same lifts for all policies.
-    They show how much other lifts of the same people would change a number, not other people or
-    other policies.
+    The intervals are of resamples of the people of both, each with the same people for all
+    policies: they show how much other people would change a number, not other policies. Where a
+    source does not name its people, its recordings are resampled, and the intervals hold for other
+    lifts of these people.
 
     Parameters
     ----------
     source, suite
         Scores of the same policies in the same order.
     """
-    samples = (source.members, suite.members)
+    samples = (source.units, suite.units)
     drawn = source.resampled, suite.resampled
     off = np.log(source.ratios / suite.ratios)
     drawn_off = np.log(source.resampled_ratios / suite.resampled_ratios)
@@ -65,17 +66,19 @@ def predict(source: Scores, suite: Scores) -> SuitePrediction:
 
     better = np.sort(suite.means.argsort(kind="stable")[: (len(suite.policies) + 1) // 2])
     return SuitePrediction(
-        spearman=Quantity.of(
+        spearman=Quantity.resampled(
             float(spearman(source.means, suite.means)), spearman(*drawn), *samples
         ),
-        kendall=Quantity.of(float(kendall(source.means, suite.means)), kendall(*drawn), *samples),
-        kendall_best_half=Quantity.of(
+        kendall=Quantity.resampled(
+            float(kendall(source.means, suite.means)), kendall(*drawn), *samples
+        ),
+        kendall_best_half=Quantity.resampled(
             float(kendall(source.means[better], suite.means[better])),
             kendall(*(each[:, better] for each in drawn)),
             *samples,
         ),
-        factor=Quantity.of(float(factor(np.abs(off))), factor(np.abs(drawn_off)), *samples),
-        bias=Quantity.of(float(factor(off)), factor(drawn_off), *samples),
+        factor=Quantity.resampled(float(factor(np.abs(off))), factor(np.abs(drawn_off)), *samples),
+        bias=Quantity.resampled(float(factor(off)), factor(drawn_off), *samples),
         fall_behind=tuple(name for name in sides if sides[name] == (-1, 1)),
         overtake=tuple(name for name in sides if sides[name] == (1, -1)),
     )

@@ -217,7 +217,7 @@ class Board:
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
 
-        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. They are
+        Ranks follow from the hidden episodes, lift by lift; see :func:`.all_pairs`. They are
         computed if that has not been done yet; ``tables`` has the table without this wait.
 
         Parameters

@@ -54,6 +54,13 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     return weight ? sum / weight : null;
   }
 
+  // The mean of ratios: each lift counts alike, and a missing one leaves no mean.
+  function geometric(pairs) {
+    if (pairs.some(([value]) => value === null)) return null;
+    const log = mean(pairs.map(([value, count]) => [Math.log(value), count]));
+    return log === null ? null : Math.exp(log);
+  }
+
   function scores(row, chosen) {
     const strata = chosen.map((i) => [data.rows[row.index][i], data.strata[i]]);
     if (strata.some(([stratum]) => !stratum))
@@ -61,10 +68,10 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     const rmse = mean(strata.map(([stratum, [, , lifts]]) => [stratum[0], lifts]));
     const humanHuman = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
     return {
-      rmse, humanHuman, ratio: humanHuman ? rmse / humanHuman : null,
+      rmse, humanHuman, ratio: geometric(strata.map(([stratum, [, , lifts]]) => [stratum[1], lifts])),
       metrics: names.map((_, i) => ({
-        mean: mean(strata.map(([stratum, [, , lifts]]) => [stratum[i + 1][0], lifts - stratum[i + 1][1]])),
-        missing: strata.reduce((sum, [stratum]) => sum + stratum[i + 1][1], 0),
+        mean: mean(strata.map(([stratum, [, , lifts]]) => [stratum[i + 2][0], lifts - stratum[i + 2][1]])),
+        missing: strata.reduce((sum, [stratum]) => sum + stratum[i + 2][1], 0),
       })),
     };
   }
@@ -132,9 +139,11 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     let causal = null;
     for (const row of baselines) {
       const rmse = row.bound === undefined ? humanHuman :
-        mean(chosen.map((i) => [data.bounds[row.bound][i], data.strata[i][2]]));
+        mean(chosen.map((i) => [data.bounds[row.bound][i][0], data.strata[i][2]]));
+      const ratio = row.bound === undefined ? (rmse === null ? null : 1) :
+        geometric(chosen.map((i) => [data.bounds[row.bound][i][1], data.strata[i][2]]));
       show(row.stratum.rmse, rmse, write(rmse, 1));
-      show(row.stratum.ratio, null, write(rmse === null || !humanHuman ? null : rmse / humanHuman, 2));
+      show(row.stratum.ratio, null, write(ratio, 2));
       for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
       if (row.tr.dataset.causal !== undefined) causal = rmse;

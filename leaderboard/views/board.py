@@ -29,8 +29,8 @@ from colift.leaderboard.views.picture import PICTURED, pictures
 Reference = Mapping[str, Any]
 """A line below the policies: the human-human baseline, or a ``bound``.
 
-``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
-baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
+other metrics, all None on a part of the lifts.
 """
 
 
@@ -129,8 +129,9 @@ def _drawn(
     """Return the data that the page's script filters: each row's public lifts, by stratum.
 
     ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
-    each row of the table in its order and each stratum, the RMSE [mm], then for each of ``metrics``
-    the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
+    each row of the table in its order and each stratum, the RMSE [mm] and ``vs_human``, then for
+    each of ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE
+    [mm] and ``vs_human``.
     """
     metrics = board_metrics(suite)
     return {
@@ -146,7 +147,7 @@ def _drawn(
         ],
         "bounds": [
             [
-                round(each.scores.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
+                [round(value, 4) for value in each.numbers[stratum.behaviour, stratum.subject]]
                 for stratum in strata
             ]
             for each in bounds
@@ -161,7 +162,7 @@ def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
-        marks = () if human_human is None else (human_human.rmse_mm.ci95[1],)
+        marks = () if human_human is None else (human_human.rmse_mm.ends[1],)
         _axes[table] = make_axis(hidden, marks)
     return _axes[table]
 
@@ -185,18 +186,23 @@ def _bound(bound: PublicBound, part: Part | None) -> Reference:
     tables = bound.scores, bound.human_human
     if part is None:
         mine, people = tables
-        whole = mine.mean / people.mean
+        whole = mine.against(people).ratio.mean
         return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
     mine, people = (each.part(part.behaviour, part.subject) for each in tables)
-    rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
+    rmse, ratio = None, None
+    if mine.strata:
+        rmse, ratio = known(mine.mean), mine.against(people).ratio.mean
     means = dict.fromkeys(bound.means)
     return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:
+def _numbers(
+    stratum: StratumScore, metrics: Sequence[str]
+) -> list[float | list[float | None] | None]:
     found = [stratum.metrics[name] for name in metrics]
     means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
-    return [round(stratum.rmse_mm, 4), *means]
+    ratio = None if stratum.vs_human is None else round(stratum.vs_human, 4)
+    return [round(stratum.rmse_mm, 4), ratio, *means]
 
 
 def _shown(visit: Visit, season: str | None = None) -> Content:

@@ -10,7 +10,7 @@ from colift.benchmark.results.baselines import (
     shipped_baselines,
     shipped_bounds,
 )
-from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.scores import ScoreTable, Stratum
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.records.metrics import known_means
@@ -46,6 +46,15 @@ class PublicBound:
     def causal(self) -> bool:
         """Whether it sees no more than a policy."""
         return self.name == "causal bound"
+
+    @functools.cached_property
+    def numbers(self) -> dict[Stratum, tuple[float, float]]:
+        """Mean RMSE [mm] and ``vs_human`` of each stratum."""
+        people = self.human_human.by_stratum
+        return {
+            key: (some.mean, some.against(people[key]).ratio.mean)
+            for key, some in self.scores.by_stratum.items()
+        }
 
     def mean_mm(self, behaviour: str) -> float:
         """Return the mean RMSE [mm] on a behaviour."""

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
-from colift.benchmark.results.strata import StratumScore, human_human_mean
+from colift.benchmark.results.strata import StratumScore, human_human_mean, vs_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.replays.chosen import made_replays
@@ -41,6 +41,8 @@ class Column:
 
     standing: RankedRow
     rmse_mm: tuple[Estimate, ...]
+    ratios: tuple[float | None, ...]
+    """``vs_human`` on each part."""
 
 
 def compare_page(visit: Visit, season: str) -> Content:
@@ -73,7 +75,11 @@ def compare_page(visit: Visit, season: str) -> Content:
     strata = next((stratum_scores(path) for path in runs.values()), ())
     parts = _parts(strata)
     columns = tuple(
-        Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
+        Column(
+            standing=ranked[digest],
+            rmse_mm=tuple(part_estimate(path, part) for part in parts),
+            ratios=tuple(vs_human_mean(part.of(stratum_scores(path))) for part in parts),
+        )
         for digest, path in runs.items()
     )
     human_human = tuple(human_human_mean(part.of(strata)) for part in parts)
@@ -184,7 +190,7 @@ def _differences(
         others = runs[i + 1 :]
         same = [other for other in others if one.strata and other.strata == one.strata]
         errors = [other.rmse_mm for other in same]
-        ps = iter(permutation_ps_against(one.rmse_mm, errors) if same else ())
+        ps = iter(permutation_ps_against(one.rmse_mm, errors, one.units) if same else ())
         for other in others:
             found.append(one.against(other).tested(next(ps)) if other in same else None)
     return tuple(found)

@@ -128,7 +128,7 @@ def parts_of(strata: Sequence[StratumScore]) -> Iterator[Part]:
 def part_estimate(bundle: Path, part: Part) -> Estimate:
     """Return the mean RMSE [mm] of a bundle over a part, with its 95 % interval.
 
-    The interval has no width if the bundle has only results.
+    There is no interval if the bundle has only results, or the part is of one person.
     """
     return _part_estimate(bundle, version(bundle), part)
 
@@ -143,4 +143,4 @@ def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
 
 def known(mean: float) -> Estimate:
     """Return a mean without a known interval."""
-    return Estimate(mean=mean, ci95=(mean, mean))
+    return Estimate(mean=mean, ci95=None)

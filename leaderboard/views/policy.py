@@ -46,7 +46,7 @@ class PartScore:
 def policy_page(visit: Visit, season: str, digest: str) -> Content:
     """Return the row of a submission and its neighbours, or the reason for having none.
 
-    ``shared`` is the number of policies in its rank group, ``ranked`` that of those it is ranked
+    ``shared`` is the number of policies of its rank, ``ranked`` that of those it is ranked
     with. ``parts`` are all lifts, each behaviour with its ``strata``, and each subject. The
     ``failures`` are reasons with their public lifts, the most frequent first; ``worst`` is the lift
     of each behaviour with the largest error, whose replay is shown; ``history`` are all entries of
