@@ -34,7 +34,7 @@ from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.level.table import LEVEL_METRICS
 from colift.benchmark.world import PHYSICS, BodyParameters, BulletWorld, FarEnd, Physics
-from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
+from colift.benchmark.world.table import TABLE, TABLE_LENGTH, Table
 from numpy.typing import NDArray
 
 BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
@@ -70,10 +70,15 @@ class Level:
         return ()
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> BulletWorld:
         """Return the world of the table alone."""
-        return BulletWorld(human, far_end, physics=physics or self.physics)
+        return BulletWorld(human, far_end, table, physics=physics or self.physics)
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""
@@ -131,7 +136,7 @@ class Level:
         smoothness and no lag.
         """
         human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
-        felt = trace.human_force - WEIGHT_SHARE
+        felt = trace.human_force - lift.table.weight_share
         smoothness = functools.partial(metrics.stroke_smoothness, robot, human, lift.plan.strokes)
         nan, empty = math.nan, len(human) == 0
         return {
