@@ -54,6 +54,9 @@ class Playing(Protocol):
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""
 
+    def seen(self, name: str, age: int) -> float:
+        """Return a past read-out; see :meth:`.View.seen`."""
+
     def robot_view(self) -> Observation:
         """Return the robot's senses: sight, touch, and the task's own."""
 

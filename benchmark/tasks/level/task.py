@@ -133,15 +133,17 @@ class Level:
         """Return the scores of :data:`.LEVEL_METRICS`.
 
         For a failed episode, force and work are computed from the frames that it has; it has no
-        smoothness and no lag.
+        smoothness and no lag. The part of a plan that is :func:`unfinished` counts like frames that
+        a failure cut off.
         """
         human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
         felt = trace.human_force - lift.table.weight_share
+        over = horizon + (0 if failed else unfinished(lift))
         smoothness = functools.partial(metrics.stroke_smoothness, robot, human, lift.plan.strokes)
         nan, empty = math.nan, len(human) == 0
         return {
-            "rmse_mm": metrics.rmse_mm(human, robot, horizon=horizon),
-            "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=horizon),
+            "rmse_mm": metrics.rmse_mm(human, robot, horizon=over),
+            "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=over),
             "max_tilt_deg": nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
             "sparc": nan if failed else smoothness(metric=sparc),
             "ldlj": nan if failed else smoothness(metric=ldlj),
@@ -151,6 +153,17 @@ class Level:
             "short_of_goal_mm": 1000 * (lift.plan.goal - float(human.max(initial=0.0))),
             "clipped": lift.clipped(trace.action),
         }
+
+
+def unfinished(lift: Playing) -> int:
+    """Return the frames of a plan's movements that a person has not come to.
+
+    They are 0 for a person whose intention has no ``time``, who goes along with the clock.
+    """
+    strokes = lift.plan.strokes
+    if "time" not in lift.intention._fields or not strokes:
+        return 0
+    return max(math.ceil(strokes[-1][1] - lift.seen("time", 0)), 0)
 
 
 LEVEL: Final = Level()
