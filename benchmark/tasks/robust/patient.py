@@ -52,7 +52,7 @@ class SlowsDown(FollowsPlan):
 
     def intend(
         self, f: ArrayFunctions[N], drawn: Drawn[N], memory: Any, view: View[N], frames: int
-    ) -> tuple[PaceMemory[N], Paced[N]]:
+    ) -> tuple[Any, Any]:
         """Return the planned heights at the person's times within the plan."""
         late = view.visual
         senses = PaceSenses(view.seen("robot_end", late), view.seen("target", late))
