@@ -97,7 +97,9 @@ def check_conditioned(scenario: Scenario) -> None:
         )
 
 
-def draw_conditioned(scenario: Scenario, seed: int, longest: float | None = None) -> Any:
+def draw_conditioned(
+    scenario: Scenario, seed: int, longest: float | None = None
+) -> DrawnConditioned:
     """Return the drawn arrays of a lift, the same as :class:`.Lift` plays.
 
     Parameters
