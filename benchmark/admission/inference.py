@@ -20,9 +20,7 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.robust.telling import is_conditioned
 from colift.benchmark.training.told_network import ToldNetwork
-
-USUAL, UNTOLD, TOLD_BOTH = "usual latency", "untold", "told both"
-"""The networks that the criteria compare; see :mod:`colift.benchmark.training.inferring`."""
+from colift.benchmark.training.variants import TOLD_BOTH, UNTOLD, USUAL
 
 SPECIALIST: Final = 1.3
 """Least error of a network that knows one latency, over that of one trained on the suite's."""
@@ -103,7 +101,7 @@ def inference_of(
                 most=KNOWING,
             ),
         ),
-        fragile=(),
+        fragile=None,
         control=None,
     )
 

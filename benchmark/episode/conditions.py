@@ -3,10 +3,10 @@
 A robot is told none of them.
 """
 
-import heapq
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, fields
+from itertools import islice
 from types import MappingProxyType
 from typing import Any, Final, NamedTuple
 
@@ -214,18 +214,10 @@ def sample_ages(link: Link, steps: int, size: int, seed: int) -> NDArray[np.int6
     (steps + 1,)
         Frames, at most :data:`OLDEST`.
     """
-    delays = link_delays(link, derive_seed(seed, "loss"), derive_seed(seed, "jitter"))
-    return np.array([min(age, OLDEST) for age in _newest(delays, steps, size)])
-
-
-def _newest(delays: Iterator[int | None], steps: int, size: int) -> Iterator[int]:
-    under_way: list[tuple[int, int]] = []  # A heap of the frame of arrival, and that of sampling.
-    newest = -2 * HISTORY_FRAMES
-    for now in range(newest + 1, steps * size + 1):
-        delay = next(delays)
-        if delay is not None:
-            heapq.heappush(under_way, (now + delay, now))
-        while under_way and under_way[0][0] <= now:
-            newest = max(newest, heapq.heappop(under_way)[1])
-        if now >= 0 and now % size == 0:
-            yield now - newest
+    drawn = link_delays(link, derive_seed(seed, "loss"), derive_seed(seed, "jitter"))
+    sampled = np.arange(1 - 2 * HISTORY_FRAMES, steps * size + 1)
+    delays = [math.inf if delay is None else delay for delay in islice(drawn, len(sampled))]
+    decided = size * np.arange(steps + 1)
+    arrived = sampled + np.array(delays) <= decided[:, np.newaxis]
+    newest = np.where(arrived, sampled, decided[:, np.newaxis] - OLDEST).max(axis=1)
+    return np.asarray(decided - newest)

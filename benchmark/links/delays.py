@@ -2,10 +2,15 @@
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Final
 
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.benchmark.links.link import Link
+from numpy.typing import NDArray
+
+BLOCK: Final = 128
+"""Messages whose delays are drawn at a time."""
 
 
 def link_delays(link: Link, loss_seed: int, jitter_seed: int) -> Iterator[int | None]:
@@ -19,21 +24,23 @@ def link_delays(link: Link, loss_seed: int, jitter_seed: int) -> Iterator[int | 
         Seeds of the losses and of the jitter.
     """
     chance = np.random.default_rng(loss_seed)
-    jitter = _jitter(link, np.random.default_rng(jitter_seed))
-    lost = chance.random() < link.loss
+    jitters = _jitter(link, np.random.default_rng(jitter_seed))
+    likely = link.loss
     while True:
-        frames = math.floor((link.delay + jitter()) / FRAME + 0.5)
-        yield None if lost else frames
-        lost = chance.random() < (1.0 - link.ends_burst if lost else link.begins_burst)
+        delays = np.floor((link.delay + jitters()) / FRAME + 0.5).astype(int).tolist()
+        for frames, share in zip(delays, chance.random(BLOCK).tolist(), strict=True):
+            lost = share < likely
+            yield None if lost else frames
+            likely = 1.0 - link.ends_burst if lost else link.begins_burst
 
 
-def _jitter(link: Link, rng: np.random.Generator) -> Callable[[], float]:
-    """Return a function that draws a jitter [s]."""
+def _jitter(link: Link, rng: np.random.Generator) -> Callable[[], NDArray[np.float64]]:
+    """Return a function that draws the jitter of the next :data:`BLOCK` messages [s]."""
     mean, deviation = link.jitter_mean, link.jitter_deviation
     if deviation == 0.0:
-        return lambda: mean
+        return lambda: np.full(BLOCK, mean)
     spread = (deviation / mean) ** 2
     if link.jitter == "gamma":
-        return lambda: float(rng.gamma(1.0 / spread, mean * spread))
+        return lambda: rng.gamma(1.0 / spread, mean * spread, BLOCK)
     variance = math.log1p(spread)
-    return lambda: float(rng.lognormal(math.log(mean) - variance / 2, math.sqrt(variance)))
+    return lambda: rng.lognormal(math.log(mean) - variance / 2, math.sqrt(variance), BLOCK)

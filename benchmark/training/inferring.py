@@ -1,8 +1,7 @@
 """Networks of one kind, trained alike, that differ in what they have to infer."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Final, NamedTuple
 
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork, network_of
@@ -11,29 +10,7 @@ from colift.benchmark.training.apg import first_learner, updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.conditioned_lesson import ConditionedLesson, told_pool
 from colift.benchmark.training.told_network import ToldNetwork
-
-
-class Variant(NamedTuple):
-    """What a network is told, and where it was trained."""
-
-    sensor: bool = False
-    """Whether it is told the ages of the samples and the latency."""
-    person: bool = False
-    """Whether it is told the behaviour and the person's habits."""
-    usual: bool = False
-    """Whether it knows no latency but :data:`.LATENCY`; all else is the suite's."""
-
-
-USUAL, UNTOLD, TOLD_BOTH = "usual latency", "untold", "told both"
-
-VARIANTS: Final[Mapping[str, Variant]] = {
-    USUAL: Variant(usual=True),
-    UNTOLD: Variant(),
-    "told the sensor": Variant(sensor=True),
-    "told the person": Variant(person=True),
-    TOLD_BOTH: Variant(sensor=True, person=True),
-}
-"""The networks; all have the same inputs, of which those that are not told are 0."""
+from colift.benchmark.training.variants import VARIANTS
 
 
 def train_variants(

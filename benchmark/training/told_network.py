@@ -3,6 +3,7 @@
 import io
 import json
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources.abc import Traversable
 from pathlib import Path
@@ -26,8 +27,20 @@ class ToldNetwork:
     conditions: Conditions
     """The conditions with which it was trained."""
 
+    @property
+    def untold(self) -> bool:
+        """Whether it is told nothing, so that it is the network of a policy."""
+        return not (self.telling.sensor or self.telling.person)
+
+    def policy(self) -> GatedNetwork:
+        """Return the network without the inputs that are told, which must be none."""
+        network, own = self.network, self.network.units + INPUTS
+        return network._replace(inputs=network.inputs[:, :INPUTS], output=network.output[:, :own])
+
     def dump(self) -> dict[str, NDArray[Any]]:
-        """Return the arrays of its file."""
+        """Return the arrays of its file; if it is told nothing, those of a policy's weights."""
+        if self.untold:
+            return self.policy()._asdict()
         about = {
             "behaviours": list(self.telling.behaviours),
             "sensor": self.telling.sensor,
@@ -36,6 +49,23 @@ class ToldNetwork:
         }
         arrays = {name: np.asarray(array) for name, array in self.network._asdict().items()}
         return {**arrays, "about": np.array(json.dumps(about))}
+
+
+def write_networks(networks: Mapping[str, ToldNetwork], folder: Path) -> None:
+    """Write the file of each network into a new folder, named by its name.
+
+    Raises
+    ------
+    InputError
+        If the folder or a file cannot be written.
+    """
+    try:
+        folder.mkdir(parents=True)
+        for name, network in networks.items():
+            arrays: dict[str, Any] = network.dump()
+            np.savez(folder / f"{name.replace(' ', '_')}.npz", **arrays)
+    except OSError as error:
+        raise InputError(f"cannot write {folder}: {error.strerror}") from error
 
 
 def read_told(file: Path | Traversable) -> ToldNetwork:
