@@ -42,8 +42,9 @@ class Admission:
     means: Mapping[str, float]
     """Mean RMSE of each player [mm]."""
     criteria: tuple[Criterion, ...]
-    fragile: tuple[str, ...]
-    """Policies and people without whom a verdict would be another one, in words."""
+    fragile: tuple[str, ...] | None
+    """Policies and people without whom a verdict would be another one, in words; None if the test
+    has no such question."""
     control: "Admission | None"
     """The result of the negative control; None if it is the control."""
 

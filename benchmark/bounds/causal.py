@@ -97,7 +97,9 @@ def timing(scenario: Scenario) -> tuple[float, float]:
 def has_causal_bound(suite: Suite) -> bool:
     """Return whether a bound was learned for the task and the timing of a suite."""
     known = suite.scenarios[0].task.name in BOUNDED
-    return known and all(timing(each) == LEARNED_TIMING for each in suite.scenarios)
+    return known and all(
+        timing(each) == LEARNED_TIMING and each.conditions is None for each in suite.scenarios
+    )
 
 
 def causal_run(
@@ -120,6 +122,11 @@ def causal_run(
             f"no {CAUSAL_BOUND} was learned for the task {task!r}; known: {', '.join(BOUNDED)}"
         )
     for scenario in suite.scenarios:
+        if scenario.conditions is not None:
+            raise InputError(
+                f"{CAUSAL_BOUND} was learned without conditions; {scenario.name} has "
+                f"{scenario.conditions}"
+            )
         if timing(scenario) != LEARNED_TIMING:
             raise InputError(
                 f"{CAUSAL_BOUND} was learned with a latency and a control period of "

@@ -13,6 +13,7 @@ from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
 FINER: Final = Physics(step=0.0025)
@@ -47,11 +48,21 @@ class Touch(Level):
     """For each number of :meth:`missed`, whether the least of a lift counts, or the sum."""
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> BulletWorld:
         """Return a world with torques at both grips, and with the ball."""
         return BulletWorld(
-            human, far_end, physics=physics or self.physics, touch=True, ball=self.rolling
+            human,
+            far_end,
+            table,
+            physics=physics or self.physics,
+            touch=True,
+            ball=self.rolling,
         )
 
     @property
