@@ -25,9 +25,7 @@ class VarianceShares:
 
     @property
     def between_people(self) -> float:
-        """Share of the interaction in what people change, whatever the policies' means; 0 if they
-        change nothing.
-        """
+        """Share of the interaction in what people change, whatever the policies' means."""
         person, suits = max(self.person, 0.0), max(self.interaction, 0.0)
         return suits / (person + suits) if suits else 0.0
 
