@@ -8,9 +8,9 @@ import typer
 from colift.base.errors import InputError
 from colift.benchmark.admission.assessment import Admission, admission_of, players
 from colift.benchmark.admission.criteria import Criterion
-from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.execution.progress import job_bar, workers
-from colift.benchmark.results.baselines import shipped_bounds
+from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.results.baselines import shipped_references
 from colift.benchmark.tables.printing import left, show, table
 from colift.benchmark.training.apg_settings import pair_settings
 from colift.benchmark.twin.libraries import require_jax
@@ -46,8 +46,8 @@ def admit_suite(
     episodes = chosen_suite(suite, None, None, None)
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     names = players(episodes.scenarios[0].task.name)
-    bounds = 0 if shipped_bounds(episodes) else len(suite_bounds(episodes))
-    total = (2 + bounds + len(names)) * episodes.size
+    references = 0 if shipped_references(episodes) else len(suite_references(episodes))
+    total = (2 + references + len(names)) * episodes.size
     with (
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),
@@ -88,7 +88,7 @@ def _cross_play(task: str, count: int) -> NDArray[np.float64]:
 
 
 def _means(found: Admission) -> Table:
-    """Return the mean errors of policies, baselines and bounds, with all people and with each."""
+    """Return the mean errors of policies, baselines and references, with all and with each."""
     people = dict.fromkeys(name for means in found.by_person.values() for name in means)
     means = sorted(found.means.items(), key=lambda each: each[1])
     rows = (

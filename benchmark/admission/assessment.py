@@ -21,10 +21,10 @@ from colift.benchmark.admission.criteria import (
     room,
 )
 from colift.benchmark.admission.published import PUBLISHED
-from colift.benchmark.bounds.catalogue import suite_bounds
-from colift.benchmark.bounds.oracle import ORACLE
-from colift.benchmark.comparison.playing import known_bounds
+from colift.benchmark.comparison.playing import known_references
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.references.oracle import ORACLE
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
@@ -74,7 +74,7 @@ def admission_of(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Admission:
-    """Test a suite; bounds that are shipped are not played again.
+    """Test a suite; references that are shipped are not played again.
 
     Parameters
     ----------
@@ -96,23 +96,26 @@ def admission_of(
     def played(name: str) -> Run:
         return run_suite(PolicySpec(text=name), suite, executor=executor, progress=progress)
 
-    limits = suite_bounds(suite)
+    limits = suite_references(suite)
     if ORACLE not in limits:
         raise InputError(f"{suite.name} has lifts of a task without an oracle")
-    bounds = known_bounds(limits, suite, executor=executor, progress=progress)
+    references = known_references(limits, suite, executor=executor, progress=progress)
     human_human = human_human_run(suite, executor=executor, progress=progress)
     hold = played(HOLD)
     runs = {name: played(name) for name in names}
     published = PUBLISHED.get(suite.scenarios[0].task.name)
     playing = {HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
-    everybody = bounds | {name: ScoreTable.of(run) for name, run in playing.items()}
+    everybody = references | {name: ScoreTable.of(run) for name, run in playing.items()}
     return Admission(
         suite=suite.name,
         digest=suite.digest,
         means={name: each.mean for name, each in everybody.items()},
         by_person={name: person_means_mm(each) for name, each in everybody.items()},
         criteria=(
-            room(bounds[ORACLE].mean, {name: run for name, run in runs.items() if name in KEEPERS}),
+            room(
+                references[ORACLE].mean,
+                {name: run for name, run in runs.items() if name in KEEPERS},
+            ),
             interaction(
                 {name: run for name, run in runs.items() if not trained(name)},
                 {name: run for name, run in runs.items() if trained(name)},

@@ -59,8 +59,8 @@ class Ranking:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    references_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.PairedResults.references`."""
+    unranked_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.PairedResults.unranked`."""
     policies: tuple[RankedPolicy, ...]
     """In the order of the mean RMSE, the best first."""
     decisive: bool
@@ -70,7 +70,7 @@ class Ranking:
     @property
     def human_human_rmse_mm(self) -> Estimate:
         """RMSE of the human-human baseline."""
-        return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
+        return self.unranked_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, ranked: RankedPolicy) -> bool:
         """Return whether a policy shares the first rank, if there are enough episodes to tell."""
@@ -85,7 +85,7 @@ def rank_policies(
     Parameters
     ----------
     results
-        Results of the policies, baseline and bounds.
+        Results of the policies, baseline and references.
     kind, name
         Kind and name of the subset: a behaviour, a subject, or all.
     members
@@ -100,8 +100,8 @@ def rank_policies(
         kind=kind,
         name=name,
         episodes=len(members),
-        references_rmse_mm={
-            name: baseline.select(members).error for name, baseline in results.references.items()
+        unranked_rmse_mm={
+            name: baseline.select(members).error for name, baseline in results.unranked.items()
         },
         policies=tuple(
             RankedPolicy(

@@ -13,7 +13,6 @@ from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.bounds import PublicBound, bounds_of
 from colift.leaderboard.views.lifts import Part, known
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
@@ -25,9 +24,10 @@ from colift.leaderboard.views.page import (
     ordered_seasons,
 )
 from colift.leaderboard.views.picture import PICTURED, pictures
+from colift.leaderboard.views.references import PublicReference, references_of
 
-Reference = Mapping[str, Any]
-"""A line below the policies: the human-human baseline, or a ``bound``.
+Unranked = Mapping[str, Any]
+"""A line below the policies: the human-human baseline, or a ``reference``.
 
 ``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
 baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
@@ -67,10 +67,10 @@ def board_page(
     strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
     behaviours = tuple(dict.fromkeys(stratum.behaviour for stratum in strata))
     lines = lines_of(board, table, asked, behaviours, most)
-    human_human, known_bounds = board.human_human(info.name), bounds_of(info)
+    human_human, known_references = board.human_human(info.name), references_of(info)
     events = board.events(season=info.name, newest=ROWS)
-    wide, narrow = pictures(table, human_human, known_bounds)
-    bounds = [_bound(each, asked.part) for each in known_bounds]
+    wide, narrow = pictures(table, human_human, known_references)
+    references = [_reference(each, asked.part) for each in known_references]
     shown = {each.standing.row.submission for each in lines.rows}
     axis, total, part = _axis(table, human_human), len(table.ranking), asked.part
     return {
@@ -91,9 +91,14 @@ def board_page(
         "slow": table.sections["not real-time"],
         "out": (*table.sections["unverified"], *table.sections["out"]),
         "people": _people(human_human, strata, part),
-        "bounds": bounds,
-        "causal": next(
-            (mm.mean for each in bounds if each["bound"].causal and (mm := each["rmse_mm"])), None
+        "references": references,
+        "best_known_mm": next(
+            (
+                mm.mean
+                for each in references
+                if each["reference"].trained and (mm := each["rmse_mm"])
+            ),
+            None,
         ),
         "human_human": human_human,
         "human_human_mm": {
@@ -115,7 +120,7 @@ def board_page(
         "most": most,
         "most_pictured": PICTURED,
         "pictured": sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
-        "data": _drawn(info.suite, axis, lines.rows, strata, known_bounds),
+        "data": _drawn(info.suite, axis, lines.rows, strata, known_references),
     }
 
 
@@ -124,13 +129,13 @@ def _drawn(
     axis: Axis,
     rows: Sequence[RankedLine],
     strata: Sequence[StratumScore],
-    bounds: Sequence[PublicBound],
+    references: Sequence[PublicReference],
 ) -> dict[str, Any]:
     """Return the data that the page's script filters: each row's public lifts, by stratum.
 
     ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
     each row of the table in its order and each stratum, the RMSE [mm], then for each of ``metrics``
-    the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
+    the mean and the lifts without a value; ``references`` has each reference's RMSE [mm].
     """
     metrics = board_metrics(suite)
     return {
@@ -144,12 +149,12 @@ def _drawn(
             [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
             for row in rows
         ],
-        "bounds": [
+        "references": [
             [
                 round(each.scores.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
                 for stratum in strata
             ]
-            for each in bounds
+            for each in references
         ],
     }
 
@@ -168,29 +173,34 @@ def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
 
 def _people(
     human_human: HumanHumanScores | None, strata: Sequence[StratumScore], part: Part | None
-) -> Reference | None:
+) -> Unranked | None:
     """Return the line of the human-human baseline."""
     if human_human is None:
         return None
     if part is None:
         rmse: Estimate | None = human_human.rmse_mm
-        return {"bound": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
+        return {"reference": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
     mean = human_human_mean(part.of(strata))
     rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
     means = dict.fromkeys(human_human.means)
-    return {"bound": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
+    return {"reference": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _bound(bound: PublicBound, part: Part | None) -> Reference:
-    tables = bound.scores, bound.human_human
+def _reference(reference: PublicReference, part: Part | None) -> Unranked:
+    tables = reference.scores, reference.human_human
     if part is None:
         mine, people = tables
         whole = mine.mean / people.mean
-        return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
+        return {
+            "reference": reference,
+            "rmse_mm": mine.error,
+            "ratio": whole,
+            "means": reference.means,
+        }
     mine, people = (each.part(part.behaviour, part.subject) for each in tables)
     rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
-    means = dict.fromkeys(bound.means)
-    return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
+    means = dict.fromkeys(reference.means)
+    return {"reference": reference, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
 def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:

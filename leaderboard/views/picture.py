@@ -12,7 +12,7 @@ from colift.leaderboard.core.standings import HumanHumanScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import picture_axes
 from colift.leaderboard.records.row import BoardRow
-from colift.leaderboard.views.bounds import PublicBound
+from colift.leaderboard.views.references import PublicReference
 
 PICTURED: Final = 100
 """Number of policies, from the best, in a picture, beside those on the front."""
@@ -27,14 +27,14 @@ _made: WeakKeyDictionary[Table, Pictures] = WeakKeyDictionary()
 
 
 def pictures(
-    table: Table, human_human: HumanHumanScores | None, bounds: Sequence[PublicBound]
+    table: Table, human_human: HumanHumanScores | None, references: Sequence[PublicReference]
 ) -> Pictures:
     """Return the pictures of a table; they are drawn once."""
     with _drawing:
         if table not in _made:
             rows = _pictured([each.row for each in table.ranking])
             wide, narrow = (
-                make_picture(rows, human_human, bounds, size=size) for size in (WIDE, NARROW)
+                make_picture(rows, human_human, references, size=size) for size in (WIDE, NARROW)
             )
             _made[table] = wide, narrow
         return _made[table]
@@ -63,7 +63,7 @@ def _point(row: BoardRow, second: Metric) -> FrontPoint:
 def make_picture(
     rows: Sequence[BoardRow],
     human_human: HumanHumanScores | None,
-    bounds: Sequence[PublicBound] = (),
+    references: Sequence[PublicReference] = (),
     *,
     size: tuple[int, int],
 ) -> ScatterScene | None:
@@ -76,7 +76,7 @@ def make_picture(
         metric on the public ones.
     human_human
         The human-human baseline on the hidden lifts.
-    bounds
+    references
         Those of the public lifts.
     size
         Width and height [px].
@@ -91,7 +91,7 @@ def make_picture(
         )
         for name, each, kind in (
             *(() if human_human is None else [("two people", human_human, "baseline")]),
-            *((bound.name, bound, "bound") for bound in bounds),
+            *((reference.name, reference, "reference") for reference in references),
         )
     ]
     axis = f"← {leading.words.praise[1]} · {leading.symbol} on the hidden lifts, {leading.unit}"

@@ -1,4 +1,4 @@
-"""The bounds beside a table, on the public lifts."""
+"""The references beside a table, on the public lifts."""
 
 import functools
 from collections.abc import Mapping
@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.benchmark.results.baselines import (
+    BEST_KNOWN,
     HUMAN_HUMAN,
+    reference_label,
     shipped_baselines,
-    shipped_bounds,
+    shipped_references,
 )
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
@@ -18,18 +20,19 @@ from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.suites import season_suite
 
 MEANINGS: Final[Mapping[str, str]] = {
-    "causal_bound": "sees what a policy sees, predicts as well as has been learned so far, and "
-    "spends nothing on smoothness",
+    BEST_KNOWN: "sees what a policy sees; trained longer, for a small error alone: the least "
+    "error known so far",
     "oracle": "knows where the person is going, and rehearses the lift",
 }
-"""Description of each bound, in display order."""
+"""Description of each reference, in display order."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PublicBound:
-    """A bound on the public lifts; it is not a policy and has no rank."""
+class PublicReference:
+    """A reference on the public lifts; it is not a policy and has no rank."""
 
-    name: str
+    key: str
+    """Its name in the shipped file."""
     meaning: str
     scores: ScoreTable
     human_human: ScoreTable
@@ -38,34 +41,39 @@ class PublicBound:
     """Means of the other metrics that boards show."""
 
     @property
+    def name(self) -> str:
+        """Its name on pages."""
+        return reference_label(self.key)
+
+    @property
     def rmse_mm(self) -> Estimate:
         """Mean RMSE [mm]."""
         return self.scores.error
 
     @property
-    def causal(self) -> bool:
+    def trained(self) -> bool:
         """Whether it sees no more than a policy."""
-        return self.name == "causal bound"
+        return self.key == BEST_KNOWN
 
     def mean_mm(self, behaviour: str) -> float:
         """Return the mean RMSE [mm] on a behaviour."""
         return self.scores.part(behaviour).mean
 
 
-def bounds_of(info: SeasonInfo) -> tuple[PublicBound, ...]:
-    """Return the bounds of a season's public lifts; none if its suite has none."""
+def references_of(info: SeasonInfo) -> tuple[PublicReference, ...]:
+    """Return the references of a season's public lifts; none if its suite has none."""
     suite = season_suite(info)
-    return () if suite is None else _bounds(suite)
+    return () if suite is None else _references(suite)
 
 
 @functools.lru_cache(maxsize=8)
-def _bounds(suite: Suite) -> tuple[PublicBound, ...]:
-    baselines, found = shipped_baselines(suite), shipped_bounds(suite)
+def _references(suite: Suite) -> tuple[PublicReference, ...]:
+    baselines, found = shipped_baselines(suite), shipped_references(suite)
     if baselines is None or found is None:
         return ()
     return tuple(
-        PublicBound(
-            name=name.replace("_", " "),
+        PublicReference(
+            key=name,
             meaning=meaning,
             scores=found[name],
             human_human=baselines[HUMAN_HUMAN],

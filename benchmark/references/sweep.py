@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
-from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
-from colift.benchmark.bounds.oracle import ORACLE, oracle_run
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.references.anticipation_spec import AnticipationSpec
+from colift.benchmark.references.oracle import ORACLE, oracle_run
 from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
