@@ -52,8 +52,8 @@ class RankedRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HumanHumanScores:
-    """The human-human baseline on a season's hidden episodes."""
+class UnrankedScores:
+    """The human-human baseline, or a reference, on a season's hidden episodes."""
 
     rmse_mm: Estimate
     means: Mapping[str, float | None]
@@ -84,13 +84,13 @@ def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_human_scores(human_human: ScoreTable, suite: str) -> HumanHumanScores:
-    """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
-    return HumanHumanScores(
-        rmse_mm=human_human.error.rounded(PLACES),
+def unranked_scores(scores: ScoreTable, suite: str) -> UnrankedScores:
+    """Return the published part of scores on a suite's hidden episodes, rounded like a row."""
+    return UnrankedScores(
+        rmse_mm=scores.error.rounded(PLACES),
         means={
             name: None if mean is None else round(mean, PLACES)
-            for name, mean in known_means(human_human.means, suite).items()
+            for name, mean in known_means(scores.means, suite).items()
         },
     )
 

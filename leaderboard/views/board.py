@@ -8,7 +8,7 @@ from weakref import WeakKeyDictionary
 from colift.benchmark.results.strata import StratumScore, human_human_mean
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
@@ -24,7 +24,7 @@ from colift.leaderboard.views.page import (
     ordered_seasons,
 )
 from colift.leaderboard.views.picture import PICTURED, pictures
-from colift.leaderboard.views.references import PublicReference, references_of
+from colift.leaderboard.views.references import SeasonReference, references_of
 
 Unranked = Mapping[str, Any]
 """A line below the policies: the human-human baseline, or a ``reference``.
@@ -67,7 +67,7 @@ def board_page(
     strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
     behaviours = tuple(dict.fromkeys(stratum.behaviour for stratum in strata))
     lines = lines_of(board, table, asked, behaviours, most)
-    human_human, known_references = board.human_human(info.name), references_of(info)
+    human_human, known_references = board.human_human(info.name), references_of(board, info)
     events = board.events(season=info.name, newest=ROWS)
     wide, narrow = pictures(table, human_human, known_references)
     references = [_reference(each, asked.part) for each in known_references]
@@ -129,13 +129,14 @@ def _drawn(
     axis: Axis,
     rows: Sequence[RankedLine],
     strata: Sequence[StratumScore],
-    references: Sequence[PublicReference],
+    references: Sequence[SeasonReference],
 ) -> dict[str, Any]:
     """Return the data that the page's script filters: each row's public lifts, by stratum.
 
     ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
     each row of the table in its order and each stratum, the RMSE [mm], then for each of ``metrics``
-    the mean and the lifts without a value; ``references`` has each reference's RMSE [mm].
+    the mean and the lifts without a value; ``references`` has each reference's RMSE [mm], or
+    None where it is not known.
     """
     metrics = board_metrics(suite)
     return {
@@ -149,20 +150,14 @@ def _drawn(
             [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
             for row in rows
         ],
-        "references": [
-            [
-                round(each.scores.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
-                for stratum in strata
-            ]
-            for each in references
-        ],
+        "references": [[_public_mm(each, stratum) for stratum in strata] for each in references],
     }
 
 
 _axes: WeakKeyDictionary[Table, Axis] = WeakKeyDictionary()
 
 
-def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
+def _axis(table: Table, human_human: UnrankedScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
@@ -172,7 +167,7 @@ def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
 
 
 def _people(
-    human_human: HumanHumanScores | None, strata: Sequence[StratumScore], part: Part | None
+    human_human: UnrankedScores | None, strata: Sequence[StratumScore], part: Part | None
 ) -> Unranked | None:
     """Return the line of the human-human baseline."""
     if human_human is None:
@@ -186,21 +181,28 @@ def _people(
     return {"reference": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _reference(reference: PublicReference, part: Part | None) -> Unranked:
-    tables = reference.scores, reference.human_human
+def _reference(reference: SeasonReference, part: Part | None) -> Unranked:
     if part is None:
-        mine, people = tables
-        whole = mine.mean / people.mean
         return {
             "reference": reference,
-            "rmse_mm": mine.error,
-            "ratio": whole,
+            "rmse_mm": reference.rmse_mm,
+            "ratio": reference.ratio,
             "means": reference.means,
         }
-    mine, people = (each.part(part.behaviour, part.subject) for each in tables)
-    rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
+    rmse, ratio = None, None
+    if reference.public is not None:
+        mine, people = (each.part(part.behaviour, part.subject) for each in reference.public)
+        if mine.strata:
+            rmse, ratio = known(mine.mean), mine.mean / people.mean
     means = dict.fromkeys(reference.means)
     return {"reference": reference, "rmse_mm": rmse, "ratio": ratio, "means": means}
+
+
+def _public_mm(reference: SeasonReference, stratum: StratumScore) -> float | None:
+    if reference.public is None:
+        return None
+    mine, _ = reference.public
+    return round(mine.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
 
 
 def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:

@@ -14,7 +14,7 @@ from colift.leaderboard.views.references import references_of
 def _method(visit: Visit) -> Content:
     """Return the numbers of the current season, and the isolation levels, strongest first."""
     season = find_season(visit.board)
-    references = references_of(season)
+    references = references_of(visit.board, season)
     return {
         "season": season,
         "seasons": ordered_seasons(visit.board),

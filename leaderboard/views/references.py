@@ -1,10 +1,10 @@
-"""The references beside a table, on the public lifts."""
+"""The references beside a table, on the lifts of its rows."""
 
-import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
 
+from colift.benchmark.references.oracle import ORACLE
 from colift.benchmark.results.baselines import (
     BEST_KNOWN,
     HUMAN_HUMAN,
@@ -14,31 +14,31 @@ from colift.benchmark.results.baselines import (
 )
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
-from colift.benchmark.suites.suite import Suite
-from colift.leaderboard.records.metrics import known_means
+from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.suites import season_suite
 
 MEANINGS: Final[Mapping[str, str]] = {
     BEST_KNOWN: "sees what a policy sees; trained longer, for a small error alone: the least "
     "error known so far",
-    "oracle": "knows where the person is going, and rehearses the lift",
+    ORACLE: "knows where the person is going, and rehearses the lift",
 }
-"""Description of each reference, in display order."""
+"""Description of each reference."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class PublicReference:
-    """A reference on the public lifts; it is not a policy and has no rank."""
+class SeasonReference:
+    """A reference on the lifts of a season; it is not a policy and has no rank."""
 
     key: str
-    """Its name in the shipped file."""
-    meaning: str
-    scores: ScoreTable
-    human_human: ScoreTable
-    """The human-human baseline on the same lifts."""
-    means: Mapping[str, float | None]
-    """Means of the other metrics that boards show."""
+    """Its name in files."""
+    hidden: UnrankedScores
+    """Its scores on the hidden lifts."""
+    ratio: float | None
+    """RMSE over that of the human-human baseline on the hidden lifts."""
+    public: tuple[ScoreTable, ScoreTable] | None
+    """Its errors and those of the human-human baseline on the public lifts, for parts of them."""
 
     @property
     def name(self) -> str:
@@ -46,39 +46,43 @@ class PublicReference:
         return reference_label(self.key)
 
     @property
+    def meaning(self) -> str:
+        """What it knows."""
+        return MEANINGS.get(self.key, "no policy, and not ranked")
+
+    @property
     def rmse_mm(self) -> Estimate:
-        """Mean RMSE [mm]."""
-        return self.scores.error
+        """Mean RMSE on the hidden lifts [mm]."""
+        return self.hidden.rmse_mm
+
+    @property
+    def means(self) -> Mapping[str, float | None]:
+        """Means of the other metrics on the hidden lifts."""
+        return self.hidden.means
 
     @property
     def trained(self) -> bool:
-        """Whether it sees no more than a policy."""
+        """Whether it is the best known, which sees no more than a policy."""
         return self.key == BEST_KNOWN
 
-    def mean_mm(self, behaviour: str) -> float:
-        """Return the mean RMSE [mm] on a behaviour."""
-        return self.scores.part(behaviour).mean
+    def mean_mm(self, behaviour: str) -> float | None:
+        """Return the mean RMSE [mm] on the public lifts of a behaviour."""
+        return None if self.public is None else self.public[0].part(behaviour).mean
 
 
-def references_of(info: SeasonInfo) -> tuple[PublicReference, ...]:
-    """Return the references of a season's public lifts; none if its suite has none."""
-    suite = season_suite(info)
-    return () if suite is None else _references(suite)
-
-
-@functools.lru_cache(maxsize=8)
-def _references(suite: Suite) -> tuple[PublicReference, ...]:
-    baselines, found = shipped_baselines(suite), shipped_references(suite)
-    if baselines is None or found is None:
-        return ()
+def references_of(board: Board, info: SeasonInfo) -> tuple[SeasonReference, ...]:
+    """Return the references of a season; none until they have been played on its hidden lifts."""
+    suite, human_human = season_suite(info), board.human_human(info.name)
+    baselines = None if suite is None else shipped_baselines(suite)
+    shipped = (None if suite is None else shipped_references(suite)) or {}
     return tuple(
-        PublicReference(
+        SeasonReference(
             key=name,
-            meaning=meaning,
-            scores=found[name],
-            human_human=baselines[HUMAN_HUMAN],
-            means=known_means(found[name].means, suite.name),
+            hidden=scores,
+            ratio=None if human_human is None else scores.rmse_mm.mean / human_human.rmse_mm.mean,
+            public=(shipped[name], baselines[HUMAN_HUMAN])
+            if baselines is not None and name in shipped
+            else None,
         )
-        for name, meaning in MEANINGS.items()
-        if name in found
+        for name, scores in board.references(info.name).items()
     )
