@@ -18,7 +18,7 @@ from colift.agents.humans import SecondPerson
 from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.task import Task
-from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.execution.runner import Run, finished, run_suite
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 
@@ -106,10 +106,8 @@ def play_baselines(
     found = {}
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
-        # No name for the run: it would be in memory while the next baseline is played.
-        found[name] = ScoreTable.of(
-            run_suite(spec, played, executor=executor, progress=progress)
-        ).stored()
+        lifts = finished(spec, played, executor=executor, progress=progress)
+        found[name] = ScoreTable.of_lifts(suite.metrics, lifts).stored()
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)

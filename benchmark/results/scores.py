@@ -3,14 +3,14 @@
 import functools
 import math
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Self
 
 import msgspec
 import numpy as np
 from colift.benchmark.episode.loop import Episode
-from colift.benchmark.episode.metric import LEADING, on_boards
+from colift.benchmark.episode.metric import LEADING, Metrics, on_boards
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.statistics import (
     Estimate,
@@ -53,15 +53,29 @@ class ScoreTable:
     @classmethod
     def of(cls, run: Run) -> Self:
         """Return the scores of a run."""
-        metrics = run.suite.metrics
-        values = {name: array("d", (e.scores[name] for e in run.episodes)) for name in metrics}
+        return cls.of_lifts(run.suite.metrics, enumerate(run.episodes))
+
+    @classmethod
+    def of_lifts(cls, metrics: Metrics, lifts: Iterable[tuple[int, Episode]]) -> Self:
+        """Return the scores of episodes that come with their places, in any order; none is kept."""
         known: dict[Stratum, Stratum] = {}
-        boards = (metric.name for metric in on_boards(metrics))
+        rows: dict[int, tuple[Stratum, str | None, array[float]]] = {}
+        for place, each in lifts:
+            where = stratum(each)
+            scores = array("d", (each.scores[name] for name in metrics))
+            rows[place] = known.setdefault(where, where), each.failure, scores
+        in_order = [rows[place] for place in sorted(rows)]
+        values = {
+            name: array("d", (scores[i] for _, _, scores in in_order))
+            for i, name in enumerate(metrics)
+        }
         return cls(
-            strata=tuple(known.setdefault(each, each) for each in map(stratum, run.episodes)),
+            strata=tuple(where for where, _, _ in in_order),
             values=values,
-            means={name: mean_with_missing(values[name]).mean for name in boards},
-            failures=tuple(episode.failure for episode in run.episodes),
+            means={
+                each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
+            },
+            failures=tuple(failure for _, failure, _ in in_order),
         )
 
     @property
