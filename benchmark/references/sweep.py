@@ -21,7 +21,7 @@ LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
 """Latencies at the paper's control period [s]."""
 
 PERIODS: Final = (0.02, 0.04, 0.06, 0.08, 0.1)
-"""Control periods at the paper's latency [s]."""
+"""Control periods at the suites' latency [s]."""
 
 FIXED: Final = ("reactive", "blend")
 """Policies that are not learned anew for each timing: they have no parameters that depend on it."""
