@@ -50,6 +50,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "baselines": "baselines:baselines",
         "admit": "admit:admit_suite",
         "practice": "practice:practice",
+        "statistics": "statistics:check_statistics",
         "references": "references:references",
         "ablate": "references:ablate_policies",
         "sweep": "references:sweep_rates",

@@ -7,6 +7,7 @@ import typer
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
 from colift.benchmark.comparison.compare import compare
+from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references import ablation, sweep
@@ -137,8 +138,8 @@ def _ablation_table(found: list[Ablation], suite: str) -> Table:
 def _difference(difference: Estimate | None, digits: int = 2) -> str:
     if difference is None:
         return ""
-    low, high = difference.ci95
-    return f"{difference.mean:+.{digits}f} ({low:+.{digits}f} to {high:+.{digits}f})"
+    interval = between(difference.ci95, f"+.{digits}f")
+    return f"{difference.mean:+.{digits}f}" + (f" ({interval})" if interval else "")
 
 
 def sweep_rates(

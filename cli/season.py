@@ -11,7 +11,8 @@ from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, Why, ope
 from colift.cli.options import Jobs
 from colift.leaderboard.core.board import LOCAL
 from colift.leaderboard.evaluation.entrant import builtin_entrant
-from colift.leaderboard.evaluation.evaluate import play_season_references
+from colift.leaderboard.evaluation.evaluate import play_human_human, play_season_references
+from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.queue import Queue
 
 app = typer.Typer(help="Begin and end the seasons of a board.", no_args_is_help=True)
@@ -45,10 +46,14 @@ def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None)
     """Play the references on a season's hidden lifts: the board shows them beside the rows."""
     with opened_board(board) as opened:
         season = opened.season_of(name)
-        lifts = season.hidden.size * len(suite_references(season.hidden))
-        with workers(f"references of season {name}", lifts, jobs) as (pool, progress):
+        secrets = opened.store.secrets(name)
+        beside = len(suite_references(season.hidden)) + (secrets.known_human_human() is None)
+        total = season.hidden.size * beside
+        with workers(f"references of season {name}", total, jobs) as (pool, progress):
+            watch = Callbacks(progress=progress)
+            secrets.human_human(lambda: play_human_human(season, executor=pool, watch=watch))
             found = play_season_references(season, executor=pool, progress=progress)
-        opened.store.secrets(name).keep_references(found)
+        secrets.keep_references(found)
         for each, scores in opened.references(name).items():
             print(f"{reference_label(each)}: {scores.rmse_mm.mean} mm on the hidden lifts")
         if not found:

@@ -11,7 +11,7 @@ from colift.benchmark.admission.variance import variance_shares
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.scores import ScoreTable, stratum
-from colift.benchmark.statistics.estimate import paired_difference
+from colift.benchmark.statistics import Units, paired_difference
 from numpy.typing import NDArray
 
 ROOM: Final = 3.0
@@ -192,10 +192,10 @@ def _better_with(one: Run, other: Run) -> tuple[Sequence[str], Sequence[str]]:
         difference = paired_difference(
             [a.scores["rmse_mm"] for a, _ in own],
             [b.scores["rmse_mm"] for _, b in own],
-            [a.behaviour for a, _ in own],
+            Units.episodes(a.behaviour for a, _ in own),
         )
-        if difference.ci95[1] < 0.0:
+        if difference.ends[1] < 0.0:
             found[0].append(person)
-        elif difference.ci95[0] > 0.0:
+        elif difference.ends[0] > 0.0:
             found[1].append(person)
     return found

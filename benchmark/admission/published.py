@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import human_human_run
-from colift.benchmark.statistics.estimate import paired_difference
+from colift.benchmark.statistics import Units, paired_difference
 from colift.benchmark.tasks.agree.task import Agree
 from colift.benchmark.tasks.intent.task import Intent
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ def roles_mw(run: Run) -> float:
     )
     crossed = np.isfinite(more) & np.isfinite(less)
     ends = np.broadcast_to(np.arange(2), crossed.shape)[crossed].tolist()
-    return paired_difference(more[crossed], less[crossed], ends).ci95[0]
+    return paired_difference(more[crossed], less[crossed], Units.episodes(ends)).ends[0]
 
 
 def _leading_mw(run: Run) -> NDArray[np.float64]:

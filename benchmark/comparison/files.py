@@ -26,7 +26,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
     A policy has the numbers of :class:`.RankedPolicy`. Where ``decisive`` is false, the
-    episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
+    people are too few for any test, and all policies have rank 1. ``recordings`` is there if the
     suite has some: the sampling of each trial, and the changes to it.
     """
     suite = comparison.results.suite
@@ -127,7 +127,7 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
         *ranked.metrics.items(),
         ("to_best_mm", behind),
     ):
-        low, high = estimate.ci95 if estimate else (None, None)
+        low, high = (estimate and estimate.ci95) or (None, None)
         yield name, estimate.mean if estimate else None
         yield from ((f"{name}_low", low), (f"{name}_high", high))
     yield "to_best_p", behind.p if behind else None

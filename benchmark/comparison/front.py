@@ -36,7 +36,7 @@ class FrontPoint:
 
 def exact(value: float | None) -> Estimate | None:
     """Return a mean without a known interval as an estimate."""
-    return None if value is None else Estimate(mean=value, ci95=(value, value))
+    return None if value is None else Estimate(mean=value, ci95=None)
 
 
 def pareto_front(points: Sequence[FrontPoint], metric: Metric) -> tuple[FrontPoint, ...]:

@@ -24,7 +24,7 @@ def html_page(comparison: Comparison) -> str:
     If each behaviour has one subject of its own, both tables would have the same numbers.
     """
     kinds = [("behaviour", comparison.behaviours)]
-    if not comparison.one_each:
+    if comparison.subjects and not comparison.one_each:
         kinds.append(("subject", comparison.subjects))
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
@@ -82,7 +82,7 @@ def _baseline_row(comparison: Comparison, name: str) -> Row:
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
-        Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
+        Cell(f"{overall.unranked_vs_human[name].mean:.2g}"),
         *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.results.metrics),
         Cell(""),
     ]

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import FRAME
-from colift.agents.humans import Behaviour, Subject
+from colift.agents.humans import Behaviour, Recorded, Subject
 from colift.base.errors import InputError
 from colift.benchmark.episode.seat import Seat, make_seat
 from colift.benchmark.episode.task import Task
@@ -68,6 +68,16 @@ class Scenario:
     def latency_frames(self) -> int:
         """The latency in motion-capture frames."""
         return round(self.latency / FRAME)
+
+    @property
+    def person(self) -> str:
+        """The person of whom this is one lift: all lifts of a person are one unit in statistics.
+
+        A drawn plan's is the subject. The body of a recorded lift is not that of its person: the
+        person is the one that its file names, or if there is none, the recording stands alone.
+        """
+        recorded = self.human.recording.person if isinstance(self.human, Recorded) else ""
+        return recorded or self.trial or self.subject.name
 
     @property
     def name(self) -> str:

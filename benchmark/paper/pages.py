@@ -140,7 +140,7 @@ def latency_rows(table: TableOne, fresh: TableOne) -> list[tuple[str, ...]]:
 
 
 def _texts(row: SubjectRow) -> tuple[str, ...]:
-    low, high = row.difference.ci95
+    low, high = row.difference.ends
     return (
         row.subject,
         *_cells(row.reactive),

@@ -107,7 +107,7 @@ def play_baselines(
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
         lifts = finished(spec, played, executor=executor, progress=progress)
-        found[name] = ScoreTable.of_lifts(suite.metrics, lifts).stored()
+        found[name] = ScoreTable.of_lifts(suite, lifts).stored()
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)

@@ -14,7 +14,7 @@ FEWEST_BETTER: Final = 3
 
 @dataclass(frozen=True, kw_only=True)
 class BetterThanPeople:
-    """Agreement about the policies whose mean RMSE on the suite is below that of two people.
+    """Agreement about the policies whose ratio to two people on the suite is below 1.
 
     A reader of a board chooses from these; ``copy`` and its like have no influence.
     """
@@ -61,16 +61,17 @@ def predict(source: Scores, suite: Scores) -> SuitePrediction:
     .. math:: \text{factor} = \exp\left(\operatorname{median}_p |\ln (r_p / s_p)|\right), \quad
         \text{bias} = \exp\left(\operatorname{median}_p \ln (r_p / s_p)\right)
 
-    The intervals are of resamples of the lifts of both, each with the same lifts for all policies.
-    They show how much other lifts of the same people would change a number, not other people or
-    other policies.
+    The intervals are of resamples of the people of both, each with the same people for all
+    policies: they show how much other people would change a number, not other policies. Where a
+    source does not name its people, its recordings are resampled, and the intervals hold for other
+    lifts of these people.
 
     Parameters
     ----------
     source, suite
         Scores of the same policies in the same order.
     """
-    samples = (source.members, suite.members)
+    samples = (source.units, suite.units)
     drawn = source.resampled, suite.resampled
     off = np.log(source.ratios / suite.ratios)
     drawn_off = np.log(source.resampled_ratios / suite.resampled_ratios)
@@ -85,18 +86,20 @@ def predict(source: Scores, suite: Scores) -> SuitePrediction:
 
     half = np.sort(suite.means.argsort(kind="stable")[: (len(suite.policies) + 1) // 2])
     return SuitePrediction(
-        spearman=Quantity.of(
+        spearman=Quantity.resampled(
             float(spearman(source.means, suite.means)), spearman(*drawn), *samples
         ),
-        kendall=Quantity.of(float(kendall(source.means, suite.means)), kendall(*drawn), *samples),
-        kendall_best_half=Quantity.of(
+        kendall=Quantity.resampled(
+            float(kendall(source.means, suite.means)), kendall(*drawn), *samples
+        ),
+        kendall_best_half=Quantity.resampled(
             float(kendall(source.means[half], suite.means[half])),
             kendall(*(each[:, half] for each in drawn)),
             *samples,
         ),
         better=_better_than_people(source, suite),
-        factor=Quantity.of(float(factor(np.abs(off))), factor(np.abs(drawn_off)), *samples),
-        bias=Quantity.of(float(factor(off)), factor(drawn_off), *samples),
+        factor=Quantity.resampled(float(factor(np.abs(off))), factor(np.abs(drawn_off)), *samples),
+        bias=Quantity.resampled(float(factor(off)), factor(drawn_off), *samples),
         fall_behind=tuple(name for name in sides if sides[name] == (-1, 1)),
         overtake=tuple(name for name in sides if sides[name] == (1, -1)),
     )
@@ -108,12 +111,12 @@ def _better_than_people(source: Scores, suite: Scores) -> BetterThanPeople | Non
         return None
     means = source.means[chosen], suite.means[chosen]
     drawn = source.resampled[:, chosen], suite.resampled[:, chosen]
-    samples = (source.members, suite.members)
+    samples = (source.units, suite.units)
     names = {suite.policies[i] for i in chosen}
     return BetterThanPeople(
         policies=tuple(name for name in suite.order() if name in names),
-        spearman=Quantity.of(float(spearman(*means)), spearman(*drawn), *samples),
-        kendall=Quantity.of(float(kendall(*means)), kendall(*drawn), *samples),
+        spearman=Quantity.resampled(float(spearman(*means)), spearman(*drawn), *samples),
+        kendall=Quantity.resampled(float(kendall(*means)), kendall(*drawn), *samples),
     )
 
 

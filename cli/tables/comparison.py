@@ -2,7 +2,7 @@
 
 from typing import Final
 
-from colift.benchmark.comparison.captions import marks_caption, title, undecided
+from colift.benchmark.comparison.captions import RANK, marks_caption, title, undecided
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
@@ -40,8 +40,8 @@ def ranks_table(comparison: Comparison) -> Table:
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
-        + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
-        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}."
+        + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
+        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}",
     )
 
@@ -78,7 +78,7 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
-        f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}",
+        f"{overall.unranked_vs_human[name].mean:.2g}",
         *(metric.text(baseline.means[metric.name]) for metric in comparison.results.metrics),
     ]
 
@@ -127,10 +127,10 @@ def differences_table(comparison: Comparison) -> Table:
         f"Behind {best.name}, on the same lifts",
         ("policy", "RMSE mm", "95 %", "p", "better", "P(< human)"),
         rows,
-        caption="RMSE: difference to the best policy. p: of its permutation test, Holm-corrected. "
-        "better: share of the lifts in which the policy has the lower RMSE. P(< human): "
-        f"probability that its mean RMSE is below the {HUMAN_HUMAN_LABEL}'s; for {best.name} it is "
-        f"{probability(best.better_than_human)}.",
+        caption="RMSE: difference to the best policy. p: of sign flips of people, corrected for "
+        "all pairs. better: share of the lifts in which the policy has the lower RMSE. P(< human): "
+        f"probability that vs_human is below 1 with other people; for {best.name} it is "
+        f"{probability(best.better_than_human) or 'not known'}.",
     )
 
 

@@ -24,7 +24,8 @@ MEANINGS: Final = (
     "lifts. Off by: median factor between the ratios on source and suite, either way. Bias: median "
     "of the ratio on the source over that on the suite. Place, behind: of the suite's best policy, "
     "on the source; behind the best other policy, with the Holm-corrected p of the difference. In "
-    "brackets: 95 % intervals, for other lifts of the same people."
+    "brackets: 95 % intervals, for other people where the source names them, else for other lifts "
+    "of the same people."
 )
 """Meaning of the lines of :func:`source_table`."""
 

@@ -20,6 +20,7 @@ from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import (
     BASELINES,
+    HUMAN_HUMAN,
     human_human_run,
     play_baselines,
     shipped_baselines,
@@ -103,7 +104,8 @@ def evaluate_entrant(
     _check(entrant, season.suite, playing, watch)
     watch.stage("public run")
     public = run_suite(entrant.policy, season.suite, **playing)
-    content = results(public, _baselines(season, executor, watch))
+    baselines = _baselines(season, executor, watch)
+    content = results(public, baselines)
     write_bundle(bundle, public, content.plain())
     if all(episode.failure is not None for episode in public.episodes):
         watch.output(public.episodes[0].log)
@@ -126,7 +128,10 @@ def evaluate_entrant(
             season,
             public_scores(content),
             hidden_scores(hidden, human_human),
-            gap(hidden, public),
+            gap(
+                ScoreTable.of(hidden).against(human_human),
+                ScoreTable.of(public).against(baselines[HUMAN_HUMAN]),
+            ),
         ),
         refusal=None,
         hidden_rmse_mm=tuple(episode.scores["rmse_mm"] for episode in hidden.episodes),
@@ -232,7 +237,7 @@ def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
 
 
 def _row(
-    entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap_mm: Estimate
+    entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap: Estimate
 ) -> BoardRow:
     about, isolation = entrant.manifest, entrant.policy.isolation
     return BoardRow(
@@ -249,7 +254,7 @@ def _row(
         submission=entrant.digest,
         public=public,
         hidden=hidden,
-        gap_mm=gap_mm,
+        gap=gap,
         isolation=isolation,
         verified=isolation in VERIFIABLE,
         scoring=SCORING,

@@ -5,7 +5,13 @@ from dataclasses import replace
 from typing import Any, Final
 from weakref import WeakKeyDictionary
 
-from colift.benchmark.results.strata import StratumScore, human_human_mean
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    vs_human_mean,
+)
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import UnrankedScores
@@ -13,7 +19,7 @@ from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.lifts import Part, known
+from colift.leaderboard.views.lifts import Part, known, parts_of
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
     Content,
@@ -29,8 +35,8 @@ from colift.leaderboard.views.references import SeasonReference, references_of
 Unranked = Mapping[str, Any]
 """A line below the policies: the human-human baseline, or a ``reference``.
 
-``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
-baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
+other metrics, all None on a part of the lifts.
 """
 
 
@@ -102,8 +108,7 @@ def board_page(
         ),
         "human_human": human_human,
         "human_human_mm": {
-            each: human_human_mean(Part(behaviour=each, subject=None).of(strata))
-            for each in behaviours
+            each: human_human_mean(Part(behaviour=each).of(strata)) for each in behaviours
         },
         "axis": axis,
         "events": events,
@@ -113,7 +118,6 @@ def board_page(
             if each.submission is not None and each.submission in table.by_digest
         },
         "behaviours": behaviours,
-        "subjects": tuple(dict.fromkeys(stratum.subject for stratum in strata)),
         "empty_part": part is not None and not part.of(strata),
         "wide": wide,
         "narrow": narrow,
@@ -131,26 +135,35 @@ def _drawn(
     strata: Sequence[StratumScore],
     references: Sequence[SeasonReference],
 ) -> dict[str, Any]:
-    """Return the data that the page's script filters: each row's public lifts, by stratum.
+    """Return the data that the page's script shows: each row's public lifts, by behaviour.
 
-    ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
-    each row of the table in its order and each stratum, the RMSE [mm], then for each of ``metrics``
-    the mean and the lifts without a value; ``references`` has each reference's RMSE [mm], or
-    None where it is not known.
+    ``behaviours`` has their names and the human-human RMSE [mm]; ``rows`` has, for each row of the
+    table in its order and each behaviour, the RMSE [mm] and ``vs_human``, then for each of
+    ``metrics`` the mean and the lifts without a value; ``references`` has each reference's RMSE
+    [mm] and ``vs_human``, None where they are not known.
     """
-    metrics = board_metrics(suite)
+    metrics, parts = board_metrics(suite), parts_of(strata)[1:]
     return {
         "top": axis.top,
         "metrics": [
             {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
             for each in metrics
         ],
-        "strata": [[c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in strata],
+        "behaviours": [[part.behaviour, human_human_mean(part.of(strata))] for part in parts],
         "rows": [
-            [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
+            [
+                _numbers(part.of(row.strata), [metric.name for metric in metrics])
+                for part in (parts if row.strata else ())
+            ]
             for row in rows
         ],
-        "references": [[_public_mm(each, stratum) for stratum in strata] for each in references],
+        "references": [
+            [
+                [_rounded(value) for value in each.numbers.get(behaviour, (None, None))]
+                for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata)
+            ]
+            for each in references
+        ],
     }
 
 
@@ -161,7 +174,7 @@ def _axis(table: Table, human_human: UnrankedScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
-        marks = () if human_human is None else (human_human.rmse_mm.ci95[1],)
+        marks = () if human_human is None else (human_human.rmse_mm.ends[1],)
         _axes[table] = make_axis(hidden, marks)
     return _axes[table]
 
@@ -183,32 +196,29 @@ def _people(
 
 def _reference(reference: SeasonReference, part: Part | None) -> Unranked:
     if part is None:
+        hidden = reference.hidden
         return {
             "reference": reference,
-            "rmse_mm": reference.rmse_mm,
-            "ratio": reference.ratio,
-            "means": reference.means,
+            "rmse_mm": hidden.rmse_mm,
+            "ratio": hidden.ratio,
+            "means": hidden.means,
         }
-    rmse, ratio = None, None
-    if reference.public is not None:
-        mine, people = (each.part(part.behaviour, part.subject) for each in reference.public)
-        if mine.strata:
-            rmse, ratio = known(mine.mean), mine.mean / people.mean
+    mean, ratio = reference.numbers.get(part.behaviour or "", (None, None))
+    rmse = None if mean is None else known(mean)
     means = dict.fromkeys(reference.means)
     return {"reference": reference, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _public_mm(reference: SeasonReference, stratum: StratumScore) -> float | None:
-    if reference.public is None:
-        return None
-    mine, _ = reference.public
-    return round(mine.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
+def _numbers(
+    strata: Sequence[StratumScore], metrics: Sequence[str]
+) -> list[float | list[float | None] | None]:
+    rmse, *found = (mean_of_strata(strata, name) for name in (LEADING, *metrics))
+    means = ([_rounded(each.mean), each.missing] for each in found)
+    return [_rounded(rmse.mean), _rounded(vs_human_mean(strata)), *means]
 
 
-def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:
-    found = [stratum.metrics[name] for name in metrics]
-    means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
-    return [round(stratum.rmse_mm, 4), *means]
+def _rounded(mean: float | None) -> float | None:
+    return None if mean is None else round(mean, 4)
 
 
 def _shown(visit: Visit, season: str | None = None) -> Content:

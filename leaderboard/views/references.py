@@ -1,5 +1,6 @@
 """The references beside a table, on the lifts of its rows."""
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final
@@ -35,8 +36,6 @@ class SeasonReference:
     """Its name in files."""
     hidden: UnrankedScores
     """Its scores on the hidden lifts."""
-    ratio: float | None
-    """RMSE over that of the human-human baseline on the hidden lifts."""
     public: tuple[ScoreTable, ScoreTable] | None
     """Its errors and those of the human-human baseline on the public lifts, for parts of them."""
 
@@ -65,21 +64,32 @@ class SeasonReference:
         """Whether it is the best known, which sees no more than a policy."""
         return self.key == BEST_KNOWN
 
+    @functools.cached_property
+    def numbers(self) -> dict[str, tuple[float, float]]:
+        """Mean RMSE [mm] and ``vs_human`` on the public lifts of each behaviour, where known."""
+        if self.public is None:
+            return {}
+        found = {}
+        for behaviour in dict.fromkeys(behaviour for behaviour, _ in self.public[0].strata):
+            mine, people = (each.part(behaviour) for each in self.public)
+            found[behaviour] = mine.mean, mine.against(people).ratio.mean
+        return found
+
     def mean_mm(self, behaviour: str) -> float | None:
         """Return the mean RMSE [mm] on the public lifts of a behaviour."""
-        return None if self.public is None else self.public[0].part(behaviour).mean
+        mean, _ = self.numbers.get(behaviour, (None, None))
+        return mean
 
 
 def references_of(board: Board, info: SeasonInfo) -> tuple[SeasonReference, ...]:
     """Return the references of a season; none until they have been played on its hidden lifts."""
-    suite, human_human = season_suite(info), board.human_human(info.name)
+    suite = season_suite(info)
     baselines = None if suite is None else shipped_baselines(suite)
     shipped = (None if suite is None else shipped_references(suite)) or {}
     return tuple(
         SeasonReference(
             key=name,
             hidden=scores,
-            ratio=None if human_human is None else scores.rmse_mm.mean / human_human.rmse_mm.mean,
             public=(shipped[name], baselines[HUMAN_HUMAN])
             if baselines is not None and name in shipped
             else None,

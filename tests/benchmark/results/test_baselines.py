@@ -121,14 +121,16 @@ def test_the_human_human_baseline_beats_copying_wherever_the_human_moves_smoothl
             assert human_human[stratum].mean < 0.6 * copy[stratum].mean
 
 
-def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played):
+def test_vs_human_is_the_mean_ratio_lift_by_lift_with_a_paired_interval(quick, played):
     run = run_suite(PolicySpec(text="copy"), quick)
     content = results(run, played)
     versus = content.summary.vs_human
     human_human = played[HUMAN_HUMAN]
-    assert versus.mean == pytest.approx(np.mean(played["copy"].rmse_mm) / human_human.mean)
+    logs = np.log(np.divide(played["copy"].rmse_mm, human_human.rmse_mm))
+    assert versus.mean == pytest.approx(np.exp(logs.mean()))
     low, high = versus.ci95
     assert 1 < low < versus.mean < high
+    assert content.strata[0].vs_human == pytest.approx(np.exp(logs[:3].mean()))
     assert content.strata[0].human_human_rmse_mm == pytest.approx(np.mean(human_human.rmse_mm[:3]))
     assert content.baselines[HUMAN_HUMAN].mean == pytest.approx(human_human.mean)
 
