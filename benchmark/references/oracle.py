@@ -43,9 +43,9 @@ def foreknow_hurdles(lift: Lift, seed: int) -> Episode:
     It tries its own ways (:func:`.foreknow_agreement`) and those of a policy that knows no private
     hurdle, and rehearses the better of them further (:func:`.refine`).
     """
-    causal = run_episode(lift, BestKnown(task=Agree.name).make(), seed)
+    trained = run_episode(lift, BestKnown(task=Agree.name).make(), seed)
     known = foreknow_agreement(lift, seed)
-    return refine(lift, seed, min(known, causal, key=lambda each: each.scores["rmse_mm"]))
+    return refine(lift, seed, min(known, trained, key=lambda each: each.scores["rmse_mm"]))
 
 
 ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {

@@ -18,12 +18,12 @@ from colift.benchmark.training.demonstrations import LIFTS
 from colift.benchmark.training.task_model import TUNING_LIFTS, TUNING_SEED
 
 FROZEN = {
-    "agree-v1": "0bdcb6d5ac4f1b06",
-    "ball-v1": "12f34c1e8d3913c0",
-    "intent-v1": "68c91ea11600a9e0",
-    "paper-v1": "42f1d3e5d85b8e49",
-    "quick-v1": "22dbf4187d131a2b",
-    "standard-v1": "3fb76e4640b23452",
+    "agree-v1": "d9ea400539b5d072",
+    "ball-v1": "e0517a8f322e5138",
+    "intent-v1": "56ccf79b7bdea11d",
+    "paper-v1": "49f5b5f8a8ed5e86",
+    "quick-v1": "6b0ab5f060685ade",
+    "standard-v1": "71fc80674f424ed1",
 }
 
 DRAWN = {"agree-v1": 25, "ball-v1": 25, "intent-v1": 25, "quick-v1": 3, "standard-v1": 75}

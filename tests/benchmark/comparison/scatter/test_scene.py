@@ -159,7 +159,7 @@ def test_policies_alike_are_all_drawn_to_scale_however_bad() -> None:
 def test_references_do_not_push_policies_off_the_scale() -> None:
     references = [
         point("oracle", 0.1, -1.9, kind="reference"),
-        point("causal", 0.2, -1.9, kind="reference"),
+        point("trained", 0.2, -1.9, kind="reference"),
     ]
     drawn = scene([*(point(f"{mm}", mm) for mm in (12, 14, 34)), BASELINE, *references])
     assert not drawn.scale.beyond
