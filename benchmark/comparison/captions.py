@@ -70,7 +70,7 @@ def picture_caption(axes: Axes, front: Sequence[str]) -> str:
     return (
         "Higher and further left is better. Bars are 95 % intervals. "
         f"{joined if front else ''}The diamond is the {HUMAN_HUMAN_LABEL}; "
-        "squares are bounds, the limits of what a policy could reach."
+        "squares are references, which have no rank."
     )
 
 
@@ -88,7 +88,7 @@ def picture_title(comparison: Comparison) -> str:
         f"How {level} and how {smooth}: {title(comparison)}\n"
         f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
         f"Orange: no other policy is both {more_level} and {smoother}."
-        + (" Squares: bounds." if comparison.results.bounds else "")
+        + (" Squares: references." if comparison.results.references else "")
     )
 
 

@@ -60,9 +60,9 @@ class Ranking:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    references_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.PairedResults.references`."""
-    references_vs_human: Mapping[str, Estimate]
+    unranked_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.PairedResults.unranked`."""
+    unranked_vs_human: Mapping[str, Estimate]
     """Its ratio to the human-human baseline."""
     policies: tuple[RankedPolicy, ...]
     """In the order of the mean RMSE, the best first; ranks have the same order."""
@@ -75,7 +75,7 @@ class Ranking:
     @property
     def human_human_rmse_mm(self) -> Estimate:
         """RMSE of the human-human baseline."""
-        return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
+        return self.unranked_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, ranked: RankedPolicy) -> bool:
         """Return whether no policy is better than this one, if there are enough people to tell."""
@@ -90,7 +90,7 @@ def rank_policies(
     Parameters
     ----------
     results
-        Results of the policies, baseline and bounds.
+        Results of the policies, baseline and references.
     kind, name
         Kind and name of the subset: a behaviour, a subject, or all.
     members
@@ -100,14 +100,14 @@ def rank_policies(
     human_human = results.human_human.select(members)
     units = human_human.units
     family = all_pairs({name: scores.rmse_mm for name, scores in tables.items()}, units)
-    references = {name: baseline.select(members) for name, baseline in results.references.items()}
+    unranked = {name: baseline.select(members) for name, baseline in results.unranked.items()}
     return Ranking(
         kind=kind,
         name=name,
         episodes=len(members),
-        references_rmse_mm={name: baseline.error for name, baseline in references.items()},
-        references_vs_human={
-            name: baseline.against(human_human).ratio for name, baseline in references.items()
+        unranked_rmse_mm={name: baseline.error for name, baseline in unranked.items()},
+        unranked_vs_human={
+            name: baseline.against(human_human).ratio for name, baseline in unranked.items()
         },
         policies=tuple(
             RankedPolicy(

@@ -16,8 +16,8 @@ CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""
 
 LATENCY: Final = 0.1
-"""Default age of the motion-capture sample when the robot decides [s]: in the paper the robot gets
-a sample only when its last action is complete (section II.A)."""
+"""Default age of the motion-capture sample when the robot decides [s]. A choice: the paper states
+only that a sample is taken when the last action is complete (section II.A), which reads as 0."""
 
 LONGEST_LATENCY: Final = 0.49
 LONGEST_PERIOD: Final = 0.5

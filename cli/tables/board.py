@@ -6,7 +6,7 @@ from colift.benchmark.comparison.formatting import between
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, optional_number, styled, table
-from colift.leaderboard.core.standings import HumanHumanScores, RankedRow
+from colift.leaderboard.core.standings import RankedRow, UnrankedScores
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import SeasonInfo
@@ -19,7 +19,7 @@ NAME = 12
 def board_table(
     season: SeasonInfo,
     standings: Sequence[RankedRow],
-    human_human: HumanHumanScores | None,
+    human_human: UnrankedScores | None,
     width: int,
 ) -> Table:
     """Return a season's table, by rank.
@@ -62,7 +62,7 @@ def _room(
 
 def _lines(
     standings: Sequence[RankedRow],
-    human_human: HumanHumanScores | None,
+    human_human: UnrankedScores | None,
     metrics: Sequence[Metric],
     wide: bool,
 ) -> Iterator[Sequence[Cell]]:
@@ -102,7 +102,7 @@ def _rank(each: RankedRow) -> str:
     return each.section
 
 
-def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
+def _human_human(baseline: UnrankedScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
     cells: list[str] = [
         "",
         "two people",

@@ -7,7 +7,7 @@ from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
 from rich.table import Column, Table
@@ -17,7 +17,7 @@ NAME: Final = 18
 """Longest name that stays on one line."""
 
 BASELINE: Final = "blue"
-"""Style of the rows of the human-human baseline and of the bounds."""
+"""Style of the rows of the human-human baseline and of the references."""
 
 
 def ranks_table(comparison: Comparison) -> Table:
@@ -27,8 +27,8 @@ def ranks_table(comparison: Comparison) -> Table:
         (ranked.rmse_mm.mean, _policy_row(comparison, ranked)) for ranked in overall.policies
     ]
     rows += [
-        (overall.references_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
-        for name in comparison.results.references
+        (overall.unranked_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
+        for name in comparison.results.unranked
     ]
     return table(
         title(comparison),
@@ -52,9 +52,9 @@ def _columns(comparison: Comparison) -> str:
 
 
 def _no_policies(comparison: Comparison) -> str:
-    """Return a sentence that names the bounds; empty if there are none."""
-    names = [f"the {name.replace('_', ' ')}" for name in reversed([*comparison.results.bounds])]
-    are = "are not policies but limits" if len(names) > 1 else "is no policy but a limit"
+    """Return a sentence that names the references; empty if there are none."""
+    names = [f"the {reference_label(name)}" for name in reversed([*comparison.results.references])]
+    are = "are no policies but references" if len(names) > 1 else "is no policy but a reference"
     listed = " and ".join(names)
     return f" {listed[0].upper()}{listed[1:]} {are}." if names else ""
 
@@ -71,14 +71,14 @@ def _fewer(comparison: Comparison) -> str:
 
 
 def _baseline_row(comparison: Comparison, name: str) -> list[str]:
-    baseline, overall = comparison.results.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+    baseline, overall = comparison.results.unranked[name], comparison.overall
+    rmse = overall.unranked_rmse_mm[name]
     return [
         "",
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
-        f"{overall.references_vs_human[name].mean:.2g}",
+        f"{overall.unranked_vs_human[name].mean:.2g}",
         *(metric.text(baseline.means[metric.name]) for metric in comparison.results.metrics),
     ]
 
@@ -142,8 +142,8 @@ def behaviours_table(comparison: Comparison) -> Table:
         [policy_cell(name), *map(_mark, rankings, (column[name] for column in columns))]
         for name in (ranked.name for ranked in comparison.overall.policies)
     ]
-    for name in comparison.results.references:
-        errors = (ranking.references_rmse_mm[name].mean for ranking in rankings)
+    for name in comparison.results.unranked:
+        errors = (ranking.unranked_rmse_mm[name].mean for ranking in rankings)
         cells = (f"{error:{digits(error)}}  " for error in errors)
         rows.append(styled((name, *cells), BASELINE))
     return table(

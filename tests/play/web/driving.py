@@ -110,6 +110,7 @@ class Driven:
         await self.page.wait_for("Boolean(window.coliftPlay && coliftPlay.page)")
         await self.page.evaluate(
             f"""document.querySelector('input[name="partner"][value="{partner}"]').click();
+            document.querySelector('input[name="consent"]').click();
             [...document.querySelectorAll("button")].find(
               (each) => each.textContent.trim() === "To the table").click()"""
         )

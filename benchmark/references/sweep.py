@@ -8,9 +8,9 @@ from typing import Final
 import numpy as np
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
-from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
-from colift.benchmark.bounds.oracle import ORACLE, oracle_run
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.references.anticipation_spec import AnticipationSpec
+from colift.benchmark.references.oracle import ORACLE, oracle_run
 from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
@@ -21,7 +21,7 @@ LATENCIES: Final = (0.0, 0.05, 0.1, 0.15, 0.2)
 """Latencies at the paper's control period [s]."""
 
 PERIODS: Final = (0.02, 0.04, 0.06, 0.08, 0.1)
-"""Control periods at the paper's latency [s]."""
+"""Control periods at the suites' latency [s]."""
 
 FIXED: Final = ("reactive", "blend")
 """Policies that are not learned anew for each timing: they have no parameters that depend on it."""

@@ -7,12 +7,12 @@ from typing import Final
 
 from colift.base.errors import InputError
 from colift.base.identity import code_hash
-from colift.benchmark.bounds.causal import CausalBound
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run
+from colift.benchmark.references.best_known import BestKnown
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.agree.oracle import foreknow_agreement
 from colift.benchmark.tasks.agree.task import Agree
@@ -43,9 +43,9 @@ def foreknow_hurdles(lift: Lift, seed: int) -> Episode:
     It tries its own ways (:func:`.foreknow_agreement`) and those of a policy that knows no private
     hurdle, and rehearses the better of them further (:func:`.refine`).
     """
-    causal = run_episode(lift, CausalBound(task=Agree.name).make(), seed)
+    trained = run_episode(lift, BestKnown(task=Agree.name).make(), seed)
     known = foreknow_agreement(lift, seed)
-    return refine(lift, seed, min(known, causal, key=lambda each: each.scores["rmse_mm"]))
+    return refine(lift, seed, min(known, trained, key=lambda each: each.scores["rmse_mm"]))
 
 
 ORACLES: Final[Mapping[str, Callable[[Lift, int], Episode]]] = {

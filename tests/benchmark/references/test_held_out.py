@@ -1,7 +1,7 @@
 import pytest
 from colift.agents.humans import Subject
 from colift.base.errors import InputError
-from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
+from colift.benchmark.references.held_out import FIRST_SEED, held_out_suite
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 
 

@@ -9,9 +9,9 @@ from typing import Any, Final
 import numpy as np
 from colift.agents.control.anticipation import FeatureWindow
 from colift.agents.policies.anticipate import AnticipateParameters
-from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.references.anticipation_spec import AnticipationSpec
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite

@@ -1,4 +1,4 @@
-"""``colift bounds``, ``ablate`` and ``sweep``: studies of the best policies on drawn subjects."""
+"""``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,16 +6,16 @@ from typing import Annotated
 import typer
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
-from colift.benchmark.bounds import ablation, sweep
-from colift.benchmark.bounds.ablation import VARIANTS, Ablation, variants
-from colift.benchmark.bounds.catalogue import BOUNDS
-from colift.benchmark.bounds.claims import POLICY, RIVALS, PolicyClaim, claims
-from colift.benchmark.bounds.held_out import FIRST_SEED, held_out_suite
-from colift.benchmark.bounds.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from colift.benchmark.comparison.compare import compare
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
 from colift.benchmark.execution.progress import workers
+from colift.benchmark.references import ablation, sweep
+from colift.benchmark.references.ablation import VARIANTS, Ablation, variants
+from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.references.claims import POLICY, RIVALS, PolicyClaim, claims
+from colift.benchmark.references.held_out import FIRST_SEED, held_out_suite
+from colift.benchmark.references.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import recorded_suite
@@ -44,20 +44,21 @@ RecordedLifts = Annotated[
 ]
 
 
-def bounds(
+def references(
     people: People = 20,
     each: LiftsEach = 5,
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure the policy 'learned', its rivals and the bounds with drawn subjects."""
+    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
-    total = episodes_to_play(len(specs), suite, bounds=len(BOUNDS))
-    with workers("bounds", total, jobs) as (pool, progress):
+    beside = suite_references(suite)
+    total = episodes_to_play(len(specs), suite, references=len(beside))
+    with workers("references", total, jobs) as (pool, progress):
         show_recordings(suite)
-        results = play_policies(specs, suite, bounds=BOUNDS, executor=pool, progress=progress)
+        results = play_policies(specs, suite, references=beside, executor=pool, progress=progress)
     comparison = compare(results)
     show(ranks_table(comparison))
     if recordings is None:
@@ -98,7 +99,7 @@ def ablate_policies(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure the effect of each part of 'anticipate': learn and play it without that part."""
+    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
     suites = [held_out_suite(people, each)]
     if recordings is not None:
         suites.append(recorded_suite(recordings))
@@ -154,7 +155,7 @@ def sweep_rates(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Measure policies and bounds at other latencies and control periods."""
+    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
     if out is not None and out.suffix != ".png":
         raise InputError(f"--out must end in .png, got {out}")
     check_output(out)
@@ -168,7 +169,7 @@ def sweep_rates(
     show(_sweep_table(swept, human_human, suite.name))
     if out is not None:
         # matplotlib is slow to load.
-        from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
+        from colift.benchmark.references.sweep_picture import sweep_figure, sweep_json
 
         sweep_figure(swept, human_human, "What a fresher or a faster robot gains").savefig(out)
         out.with_suffix(".json").write_text(sweep_json(swept, human_human))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from colift.agents.control.anticipation import FeatureWindow, load_anticipation
 from colift.agents.policies.anticipate import AnticipateParameters
-from colift.benchmark.bounds.ablation import VARIANTS, ablate, moving, narrowed, variants
-from colift.benchmark.bounds.anticipation_spec import AnticipationSpec
-from colift.benchmark.bounds.held_out import held_out_suite
+from colift.benchmark.references.ablation import VARIANTS, ablate, moving, narrowed, variants
+from colift.benchmark.references.anticipation_spec import AnticipationSpec
+from colift.benchmark.references.held_out import held_out_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import BEHAVIOURS

@@ -3,11 +3,11 @@ import pytest
 from colift.agents.agent import FRAME
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
-from colift.benchmark.bounds.catalogue import BOUNDS
-from colift.benchmark.bounds.oracle import foreknow, oracle_run
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.references.catalogue import REFERENCES
+from colift.benchmark.references.oracle import foreknow, oracle_run
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.tasks.rehearsal import Foreknowing
@@ -63,13 +63,13 @@ def test_it_meets_the_same_lifts_as_policies_do_and_nothing_else_changes():
     assert (run.episodes[0].trace.state == again.episodes[0].trace.state).all()
 
 
-@pytest.mark.parametrize("name", list(BOUNDS))
-def test_bounds_are_no_policies(name):
+@pytest.mark.parametrize("name", list(REFERENCES))
+def test_references_are_no_policies(name):
     with pytest.raises(InputError, match="unknown policy"):
         PolicySpec(text=name).check()
 
 
-def test_bounds_belong_to_no_suite_timing_but_their_own():
+def test_references_belong_to_no_suite_timing_but_their_own():
     suite = make_suite("quick-v1").with_timing(0.05, None)
     with pytest.raises(InputError, match="was learned with a latency and a control period"):
-        BOUNDS["causal_bound"](suite, executor=None, progress=lambda episodes: None)
+        REFERENCES["best_known"](suite, executor=None, progress=lambda episodes: None)

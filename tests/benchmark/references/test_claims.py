@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from colift.benchmark.bounds.claims import claims
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.references.claims import claims
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import make_suite
@@ -40,7 +40,7 @@ def baseline(rmse, strata):
 def paired(
     mine,
     *,
-    bound=4.0,
+    reference=4.0,
     anticipate=5.0,
     blend=16.0,
     human_human=8.0,
@@ -56,7 +56,7 @@ def paired(
             policy_results("blend", blend, -2.3, 0.2, strata),
             policy_results("reactive", 20.0, -2.9, 0.3, strata),
         ),
-        bounds={"causal_bound": baseline(bound, strata)},
+        references={"best_known": baseline(reference, strata)},
         human_human=baseline(human_human, strata),
     )
 
@@ -74,10 +74,10 @@ def test_ratios_are_of_the_means_on_each_behaviour():
     assert found["RMSE over that of the human-human baseline, over all"].value == pytest.approx(
         (3 * 4.16 + 9.6) / 32
     )
-    bound = found["RMSE over that of the causal bound, pause"]
-    assert (bound.value, bound.holds) == (pytest.approx(1.04), True)
-    assert not found["RMSE over that of the causal bound, jerky"].holds
-    over_all = found["RMSE over that of the causal bound, over all"]
+    reference = found["RMSE over that of the best known policy, pause"]
+    assert (reference.value, reference.holds) == (pytest.approx(1.04), True)
+    assert not found["RMSE over that of the best known policy, jerky"].holds
+    over_all = found["RMSE over that of the best known policy, over all"]
     assert (over_all.value, over_all.holds) == (pytest.approx(5.52 / 4), False)
     assert found["RMSE over that of blend, smooth"].value == pytest.approx(4.16 / 16)
     assert "RMSE over that of blend, pause" not in found
@@ -103,4 +103,4 @@ def test_recorded_lifts_are_set_against_blend_alone():
     assert found["RMSE over that of blend, recorded"].value == pytest.approx(mine.mean() / 16)
     wins = found["share of the recorded lifts more level than with blend"]
     assert (wins.value, wins.holds) == (pytest.approx(0.96), False)
-    assert not any("human-human" in text or "bound" in text for text in found)
+    assert not any("human-human" in text or "reference" in text for text in found)

@@ -1,9 +1,9 @@
 import json
 
 import pytest
-from colift.benchmark.bounds import sweep as sweeping
-from colift.benchmark.bounds.held_out import FIRST_SEED
-from colift.benchmark.bounds.sweep import (
+from colift.benchmark.references import sweep as sweeping
+from colift.benchmark.references.held_out import FIRST_SEED
+from colift.benchmark.references.sweep import (
     NAMES,
     Swept,
     human_human_rmse,
@@ -11,7 +11,7 @@ from colift.benchmark.bounds.sweep import (
     sweep,
     timings,
 )
-from colift.benchmark.bounds.sweep_picture import sweep_figure, sweep_json
+from colift.benchmark.references.sweep_picture import sweep_figure, sweep_json
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training.data import Timing

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Final
 
-from colift.benchmark.bounds.oracle import ORACLE
-from colift.benchmark.bounds.sweep import Swept
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.references.oracle import ORACLE
+from colift.benchmark.references.sweep import Swept
 from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -19,7 +19,7 @@ LOOKS: Final = {
     "anticipate": (ROBOT, "-", "o"),
     ORACLE: (INK, ":", "s"),
 }
-"""Colour, line and marker; the oracle, a bound, is black."""
+"""Colour, line and marker; the oracle, a reference, is black."""
 
 
 def sweep_json(swept: Sequence[Swept], human_human: float) -> str:

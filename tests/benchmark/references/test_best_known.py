@@ -7,9 +7,10 @@ import pytest
 from colift.agents.control.recurrent import shipped_network
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
-from colift.benchmark.bounds.catalogue import BOUNDS, suite_bounds
-from colift.benchmark.bounds.causal import CAUSAL_BOUND, CausalBound, causal_bound, causal_run
 from colift.benchmark.comparison.playing import play_policies
+from colift.benchmark.references.best_known import BestKnown, best_known_run, level_network
+from colift.benchmark.references.catalogue import REFERENCES, suite_references
+from colift.benchmark.results.baselines import BEST_KNOWN
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks import rehearsal
@@ -18,19 +19,19 @@ from colift.benchmark.tasks.level.task import Level
 pytestmark = pytest.mark.slow
 
 
-def test_the_bound_is_an_agent_of_its_own_weights():
-    spec = CausalBound()
+def test_the_best_known_is_an_agent_of_its_own_weights():
+    spec = BestKnown()
     with spec.agent() as agent:
         agent.reset(0)
         action = agent.act(np.array([0.01, 0.0, 0.0, 0.0, 0.0]))
     assert 0.0 < action[0] < 0.05
-    assert spec.name == CAUSAL_BOUND
+    assert spec.name == BEST_KNOWN
     assert spec.digest() == pickle.loads(pickle.dumps(spec)).digest()
-    assert causal_bound().units >= shipped_network().units
+    assert level_network().units >= shipped_network().units
 
 
-def test_the_bounds_stand_in_the_right_order():
-    """The oracle knows most, then the causal bound; both are kept apart from the policies."""
+def test_the_references_stand_in_the_right_order():
+    """The oracle knows most, then the best known policy; both are kept apart from the policies."""
     scenarios = tuple(
         make_scenario(name, subject)
         for name in ("smooth", "pause", "jerky", "changing_goal")
@@ -38,11 +39,11 @@ def test_the_bounds_stand_in_the_right_order():
     )
     suite = Suite(name="few", scenarios=scenarios, seeds=(200_000, 200_001, 200_002))
     specs = {name: PolicySpec(text=name) for name in ("anticipate", "learned")}
-    paired = play_policies(specs, suite, bounds=BOUNDS)
+    paired = play_policies(specs, suite, references=REFERENCES)
     assert [policy.name for policy in paired.policies] == list(specs)
     errors = [found.scores.mean for found in paired.policies]
-    bound = paired.bounds[CAUSAL_BOUND]
-    assert 10 * paired.bounds["oracle"].mean < bound.mean < min(errors)
+    reference = paired.references[BEST_KNOWN]
+    assert 10 * paired.references["oracle"].mean < reference.mean < min(errors)
 
 
 @pytest.mark.parametrize(
@@ -53,35 +54,37 @@ def test_the_bounds_stand_in_the_right_order():
         (("ball_smooth",), "ball_learned"),
     ],
 )
-def test_each_task_with_touch_has_a_bound_below_its_policies(behaviours, policy, monkeypatch):
+def test_each_task_with_touch_has_a_reference_below_its_policies(behaviours, policy, monkeypatch):
     """The oracle of two hurdles tries a quarter of its bumps, which is less than it can."""
     monkeypatch.setattr(rehearsal, "BUMP_SPACING", 4 * rehearsal.BUMP_SPACING)
     task = policy.partition("_")[0].replace("pose", "intent")
     scenarios = tuple(make_scenario(each, "draw-200003", task=task) for each in behaviours)
     suite = Suite(name="few", scenarios=scenarios, seeds=(200_000,))
-    paired = play_policies({policy: PolicySpec(text=policy)}, suite, bounds=suite_bounds(suite))
-    bound, error = paired.bounds[CAUSAL_BOUND].mean, paired.policies[0].scores.mean
-    assert paired.bounds["oracle"].mean < bound < error
+    paired = play_policies(
+        {policy: PolicySpec(text=policy)}, suite, references=suite_references(suite)
+    )
+    reference, error = paired.references[BEST_KNOWN].mean, paired.policies[0].scores.mean
+    assert paired.references["oracle"].mean < reference < error
 
 
 def test_a_suite_of_another_timing_has_the_oracle_alone():
     suite = Suite(name="one", scenarios=(make_scenario("smooth"),), seeds=(0,))
-    assert list(suite_bounds(suite)) == [CAUSAL_BOUND, "oracle"]
-    assert list(suite_bounds(suite.with_timing(0.2, None))) == ["oracle"]
-    assert list(suite_bounds(suite.with_timing(None, 0.05))) == ["oracle"]
+    assert list(suite_references(suite)) == [BEST_KNOWN, "oracle"]
+    assert list(suite_references(suite.with_timing(0.2, None))) == ["oracle"]
+    assert list(suite_references(suite.with_timing(None, 0.05))) == ["oracle"]
     for behaviour in ("recorded", "played"):
         first = dataclasses.replace(suite.scenarios[0], behaviour=behaviour, trial="a")
         real = dataclasses.replace(suite, scenarios=(first,))
-        assert list(suite_bounds(real)) == ["oracle"]
+        assert list(suite_references(real)) == ["oracle"]
 
 
-def test_a_task_without_a_bound_is_named():
+def test_a_task_without_a_reference_is_named():
     @dataclasses.dataclass(frozen=True, kw_only=True)
     class Other(Level):
         name: ClassVar[str] = "other"
 
     scenario = dataclasses.replace(make_scenario("smooth"), task=Other())
     suite = Suite(name="one", scenarios=(scenario,), seeds=(0,))
-    assert suite_bounds(suite) == {}
-    with pytest.raises(InputError, match="no causal_bound was learned for the task 'other'"):
-        causal_run(suite)
+    assert suite_references(suite) == {}
+    with pytest.raises(InputError, match="no best_known was learned for the task 'other'"):
+        best_known_run(suite)
