@@ -39,7 +39,8 @@ def rougher(
     Returns
     -------
     tuple
-        Names of metrics; None if these values of the baseline are not known.
+        Names of metrics, none with a single person; None if these values of the baseline are not
+        known.
     """
     compared = gentle(metrics)
     if any(each.name not in people.values for each in compared):
@@ -51,7 +52,10 @@ def _worse(policy: ScoreTable, people: ScoreTable, metric: Metric) -> bool:
     paired = policy.against(people, metric.name)
     if not len(paired.one):
         return False
-    low, high = paired.difference.ci95
+    interval = paired.difference.ci95
+    if interval is None:
+        return False
+    low, high = interval
     return low > 0.0 if metric.better == "less" else high < 0.0
 
 

@@ -71,5 +71,5 @@ def test_metrics_are_named_in_words():
 
 
 def test_a_metric_without_a_direction_cannot_tell():
-    with pytest.raises(InputError, match="'lag' is gentle.*'less' or 'more'"):
+    with pytest.raises(InputError, match=r"'lag' is gentle.*'less' or 'more'"):
         Metric(name="lag", symbol="lag", label="Lag", better="near zero", gentle=True, meaning="")
