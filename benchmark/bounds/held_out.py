@@ -4,11 +4,11 @@ from typing import Final
 
 from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.ranges import FIRST_NEW_PERSON
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.training.anticipation import LAST_SEED
 
-FIRST_SEED: Final = LAST_SEED + 1
+FIRST_SEED: Final = FIRST_NEW_PERSON
 """Seed of the first person and of the first lift: no learning takes seeds from here on."""
 
 

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Self
+from typing import Any, Final, Self
 
+import numpy as np
 from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.results.scores import ScoreTable, Stratum
 from colift.benchmark.statistics import MeanWithMissing
@@ -91,6 +92,51 @@ def mean_of_strata(strata: Iterable[StratumScore], name: str = LEADING) -> MeanW
             [(MeanWithMissing(mean=each.rmse_mm, missing=0), each.episodes) for each in some]
         )
     return _pooled([(each.metrics[name], each.episodes) for each in some])
+
+
+@dataclass(frozen=True, kw_only=True)
+class Spread:
+    """How the error differs from person to person: order statistics of the people's means [mm]."""
+
+    people: int
+    """Number of people."""
+    best: float
+    lower: float
+    """Lower quartile."""
+    median: float
+    upper: float
+    """Upper quartile."""
+    worst: float
+    worst_person: str
+    better: int | None
+    """Number of people with whom the mean is below the human-human baseline's; None without it."""
+
+
+def spread_over_people(strata: Iterable[StratumScore]) -> Spread:
+    """Return the spread of the leading metric over the people of some strata, at least one.
+
+    Quartiles are interpolated linearly between order statistics.
+    """
+    mine: dict[str, list[StratumScore]] = {}
+    for each in strata:
+        mine.setdefault(each.subject, []).append(each)
+    means = {person: mean_of_strata(some).mean or 0.0 for person, some in mine.items()}
+    humans = {person: human_human_mean(some) for person, some in mine.items()}
+    best, lower, median, upper, worst = np.quantile([*means.values()], QUARTILES).tolist()
+    better = [means[person] < mean for person, mean in humans.items() if mean is not None]
+    return Spread(
+        people=len(means),
+        best=best,
+        lower=lower,
+        median=median,
+        upper=upper,
+        worst=worst,
+        worst_person=max(means, key=means.__getitem__),
+        better=sum(better) if len(better) == len(means) else None,
+    )
+
+
+QUARTILES: Final = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 def human_human_mean(strata: Iterable[StratumScore]) -> float | None:

@@ -5,7 +5,13 @@ from dataclasses import replace
 from typing import Any, Final
 from weakref import WeakKeyDictionary
 
-from colift.benchmark.results.strata import StratumScore, human_human_mean
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    vs_human_mean,
+)
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import HumanHumanScores
@@ -14,7 +20,7 @@ from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
 from colift.leaderboard.views.bounds import PublicBound, bounds_of
-from colift.leaderboard.views.lifts import Part, known
+from colift.leaderboard.views.lifts import Part, known, parts_of
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
     Content,
@@ -97,8 +103,7 @@ def board_page(
         ),
         "human_human": human_human,
         "human_human_mm": {
-            each: human_human_mean(Part(behaviour=each, subject=None).of(strata))
-            for each in behaviours
+            each: human_human_mean(Part(behaviour=each).of(strata)) for each in behaviours
         },
         "axis": axis,
         "events": events,
@@ -108,7 +113,6 @@ def board_page(
             if each.submission is not None and each.submission in table.by_digest
         },
         "behaviours": behaviours,
-        "subjects": tuple(dict.fromkeys(stratum.subject for stratum in strata)),
         "empty_part": part is not None and not part.of(strata),
         "wide": wide,
         "narrow": narrow,
@@ -126,29 +130,32 @@ def _drawn(
     strata: Sequence[StratumScore],
     bounds: Sequence[PublicBound],
 ) -> dict[str, Any]:
-    """Return the data that the page's script filters: each row's public lifts, by stratum.
+    """Return the data that the page's script shows: each row's public lifts, by behaviour.
 
-    ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
-    each row of the table in its order and each stratum, the RMSE [mm] and ``vs_human``, then for
-    each of ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE
-    [mm] and ``vs_human``.
+    ``behaviours`` has their names and the human-human RMSE [mm]; ``rows`` has, for each row of the
+    table in its order and each behaviour, the RMSE [mm] and ``vs_human``, then for each of
+    ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm] and
+    ``vs_human``.
     """
-    metrics = board_metrics(suite)
+    metrics, parts = board_metrics(suite), parts_of(strata)[1:]
     return {
         "top": axis.top,
         "metrics": [
             {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
             for each in metrics
         ],
-        "strata": [[c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in strata],
+        "behaviours": [[part.behaviour, human_human_mean(part.of(strata))] for part in parts],
         "rows": [
-            [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
+            [
+                _numbers(part.of(row.strata), [metric.name for metric in metrics])
+                for part in (parts if row.strata else ())
+            ]
             for row in rows
         ],
         "bounds": [
             [
-                [round(value, 4) for value in each.numbers[stratum.behaviour, stratum.subject]]
-                for stratum in strata
+                [round(value, 4) for value in each.numbers[behaviour]]
+                for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata)
             ]
             for each in bounds
         ],
@@ -183,26 +190,26 @@ def _people(
 
 
 def _bound(bound: PublicBound, part: Part | None) -> Reference:
-    tables = bound.scores, bound.human_human
     if part is None:
-        mine, people = tables
+        mine, people = bound.scores, bound.human_human
         whole = mine.against(people).ratio.mean
         return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
-    mine, people = (each.part(part.behaviour, part.subject) for each in tables)
-    rmse, ratio = None, None
-    if mine.strata:
-        rmse, ratio = known(mine.mean), mine.against(people).ratio.mean
+    mean, ratio = bound.numbers.get(part.behaviour or "", (None, None))
+    rmse = None if mean is None else known(mean)
     means = dict.fromkeys(bound.means)
     return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
 def _numbers(
-    stratum: StratumScore, metrics: Sequence[str]
+    strata: Sequence[StratumScore], metrics: Sequence[str]
 ) -> list[float | list[float | None] | None]:
-    found = [stratum.metrics[name] for name in metrics]
-    means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
-    ratio = None if stratum.vs_human is None else round(stratum.vs_human, 4)
-    return [round(stratum.rmse_mm, 4), ratio, *means]
+    rmse, *found = (mean_of_strata(strata, name) for name in (LEADING, *metrics))
+    means = ([_rounded(each.mean), each.missing] for each in found)
+    return [_rounded(rmse.mean), _rounded(vs_human_mean(strata)), *means]
+
+
+def _rounded(mean: float | None) -> float | None:
+    return None if mean is None else round(mean, 4)
 
 
 def _shown(visit: Visit, season: str | None = None) -> Content:

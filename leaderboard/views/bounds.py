@@ -10,7 +10,7 @@ from colift.benchmark.results.baselines import (
     shipped_baselines,
     shipped_bounds,
 )
-from colift.benchmark.results.scores import ScoreTable, Stratum
+from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.records.metrics import known_means
@@ -48,13 +48,13 @@ class PublicBound:
         return self.name == "causal bound"
 
     @functools.cached_property
-    def numbers(self) -> dict[Stratum, tuple[float, float]]:
-        """Mean RMSE [mm] and ``vs_human`` of each stratum."""
-        people = self.human_human.by_stratum
-        return {
-            key: (some.mean, some.against(people[key]).ratio.mean)
-            for key, some in self.scores.by_stratum.items()
-        }
+    def numbers(self) -> dict[str, tuple[float, float]]:
+        """Mean RMSE [mm] and ``vs_human`` on each behaviour."""
+        found = {}
+        for behaviour in dict.fromkeys(behaviour for behaviour, _ in self.scores.strata):
+            mine, people = (each.part(behaviour) for each in (self.scores, self.human_human))
+            found[behaviour] = mine.mean, mine.against(people).ratio.mean
+        return found
 
     def mean_mm(self, behaviour: str) -> float:
         """Return the mean RMSE [mm] on a behaviour."""

@@ -10,14 +10,13 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
-from colift.benchmark.results.strata import StratumScore, human_human_mean, vs_human_mean
+from colift.benchmark.results.strata import human_human_mean, vs_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
-    Part,
     part_estimate,
     parts_of,
     public_lifts,
@@ -73,7 +72,7 @@ def compare_page(visit: Visit, season: str) -> Content:
     bundles = {digest: board.bundle(info.name, digest) for digest in chosen}
     runs = {digest: path for digest, path in bundles.items() if path is not None}
     strata = next((stratum_scores(path) for path in runs.values()), ())
-    parts = _parts(strata)
+    parts = parts_of(strata)
     columns = tuple(
         Column(
             standing=ranked[digest],
@@ -171,12 +170,6 @@ def _compared(replay: Mapping[str, Any]) -> tuple[Sequence[int], Sequence[int]]:
         return places[False], places[True]
     goals = [each["values"] for each in drawn if each["goal"]]
     return replay["robot"], goals[0] if goals else replay["human"]
-
-
-def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
-    """Return all lifts, each behaviour and each subject; strata are for the policies' own pages."""
-    found = parts_of(strata)
-    return tuple(part for part in found if part.behaviour is None or part.subject is None)
 
 
 @functools.lru_cache(maxsize=64)

@@ -45,7 +45,7 @@ class RankedLine:
 
     def mean_mm(self, behaviour: str) -> float | None:
         """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
-        return mean_of_strata(Part(behaviour=behaviour, subject=None).of(self.strata)).mean
+        return mean_of_strata(Part(behaviour=behaviour).of(self.strata)).mean
 
     @property
     def text(self) -> str:
@@ -163,7 +163,7 @@ def _sorted(
         if name in _OF_ROW:
             return _OF_ROW[name](each)
         if name in columns:
-            part = Part(behaviour=columns[name], subject=None)
+            part = Part(behaviour=columns[name])
             return mean_of_strata(part.of(strata_of(board, each.row))).mean
         strata = () if asked.part is None else strata_of(board, each.row)
         scores = _scores(each.row, strata, asked.part)

@@ -3,12 +3,12 @@
 import json
 
 from colift.benchmark.statistics.simulation import BOARD_SAMPLES, BOARDS, SAMPLES
-from colift.cli.main import main
 
 
-def test_it_counts_coverage_and_false_differences(capsys):
-    assert main(["statistics", "--repetitions", "20", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
+def test_it_counts_coverage_and_false_differences(colift):
+    done = colift("statistics", "--repetitions", 20, "--json")
+    assert done.returncode == 0, done.stderr
+    told = json.loads(done.stdout)
     assert len(told["coverage"]) == 4 * len(SAMPLES)
     assert len(told["false_splits"]) == len(BOARDS) * len(BOARD_SAMPLES)
     assert all(0.7 <= each["share"] <= 1.0 for each in told["coverage"])
@@ -17,7 +17,8 @@ def test_it_counts_coverage_and_false_differences(capsys):
     assert told["holds"] is all(held)
 
 
-def test_the_check_fails_with_its_exit_code(monkeypatch, capsys):
+def test_the_check_fails_with_its_exit_code(colift, monkeypatch):
     monkeypatch.setattr("colift.benchmark.statistics.simulation.LEAST_COVERAGE", 1.01)
-    assert main(["statistics", "--repetitions", "20", "--check"]) == 1
-    assert "95 % intervals that contain the true value" in capsys.readouterr().out
+    done = colift("statistics", "--repetitions", 20, "--check")
+    assert done.returncode == 1
+    assert "95 % intervals that contain the true value" in done.stdout

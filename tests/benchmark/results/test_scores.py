@@ -12,6 +12,7 @@ from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
     mean_of_strata,
+    spread_over_people,
     stratum_scores,
 )
 from colift.benchmark.statistics import (
@@ -156,6 +157,18 @@ def test_failed_lifts_are_counted(scores):
     failing = ScoreTable(strata=scores.strata, values=scores.values, failures=failures)
     assert failing.failed == len(failures) // 2
     assert failing.select([1, 2]).failures == ("step 3: oops", None)
+
+
+def test_the_spread_is_over_the_means_of_each_person(scores, hold):
+    strata = stratum_scores(scores, hold)
+    means = {name: scores.part(subject=name).mean for _, name in scores.strata}
+    spread = spread_over_people(strata)
+    assert spread.people == len(means) == 3
+    assert (spread.best, spread.median, spread.worst) == pytest.approx(sorted(means.values()))
+    assert spread.lower == pytest.approx((spread.best + spread.median) / 2)
+    assert means[spread.worst_person] == pytest.approx(spread.worst)
+    assert spread.better == 3  # Holding still is worse with everyone.
+    assert spread_over_people(stratum_scores(scores, None)).better is None
 
 
 def test_means_over_strata_are_those_over_their_lifts(scores, hold):

@@ -187,7 +187,7 @@ def test_what_fails_in_every_public_lift_gets_no_row(season, human_human, tmp_pa
         "colift.leaderboard.evaluation.evaluate.presubmission_checks", lambda *_: ()
     )
     policy = written(tmp_path, "raise ValueError('my fault')")
-    told = r"it fails in every public lift: 2 lifts: ValueError: my fault \(first: smooth/S1 seed 0"
+    told = r"in every public lift: 2 lifts: ValueError: my fault \(first: smooth/draw-1 seed 0"
     with pytest.raises(InputError, match=told):
         evaluate_entrant(make_entrant(policy), season, human_human, tmp_path / "bundle")
 

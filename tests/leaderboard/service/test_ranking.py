@@ -54,7 +54,7 @@ def test_readers_have_the_last_ranks_until_the_next_are_there(
                 "/method",
                 "/api/v1/standings.csv",
                 "/seasons/1/feed.atom",
-                "/seasons/1/scenarios",
+                "/seasons/1/behaviours",
                 "/seasons/1/compare",
                 f"/seasons/1/policies/{digest('b')}",
                 f"/seasons/1/policies/{digest('c')}/badge.svg",
