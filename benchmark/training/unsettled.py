@@ -55,7 +55,7 @@ class Unsettled:
     """Share of the lifts before which the hand waits longer than in other behaviours."""
     wait: tuple[float, float] = (0.3, 6.0)
     """Shortest and longest additional wait [s], uniform in its logarithm."""
-    counters: float = 0.4
+    counters: float = 0.5
     """Share of the lifts that begin with a counter-movement."""
     counter: tuple[float, float] = (0.003, 0.03)
     """Smallest and largest counter-movement [m]."""
