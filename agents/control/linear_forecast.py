@@ -8,8 +8,8 @@ from typing import Any, Final
 import numpy as np
 from colift.agents.control.anticipation import FeatureWindow
 from colift.agents.control.learned import learned_json, load_learned, read_learned
+from colift.agents.control.portable import PORTABLE
 from colift.base.errors import InputError
-from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -73,7 +73,7 @@ class LinearForecast:
         horizon
             Time from the newest sample [s]; beyond the last of the horizons, it counts as that.
         """
-        rises = dot(self.weights, changes)
+        rises = PORTABLE.product(self.weights, changes)
         return float(np.interp(horizon, (0.0, *self.horizons), (0.0, *rises)))
 
 

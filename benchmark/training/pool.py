@@ -27,7 +27,7 @@ from colift.benchmark.twin.lifts import DrawnLift, Lifts, carried_out, some, sta
 from colift.benchmark.twin.rollout import Sensing, rollout
 
 LONGEST: Final = 12.0
-"""Time after which a lift is cut off [s]: nine of ten end earlier."""
+"""Time after which a lift is cut off [s]: four of five end earlier."""
 
 WANDERING: Final = "wandering"
 """Name of the behaviour :class:`.Wandering`, which is in no registry."""
