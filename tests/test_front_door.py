@@ -163,9 +163,9 @@ def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):
 def test_the_failures_of_a_policy_are_told():
     failed = colift.evaluate(Failing)
     assert len(failed.failures) == 12
-    assert failed.failures[0] == "smooth/S1 seed 0: step 0: ValueError: no idea"
+    assert failed.failures[0] == "smooth/draw-1 seed 0: step 0: ValueError: no idea"
     *_, told = str(failed).partition(
-        "12 of 12 lifts failed and count as worst; the first, smooth/S1 seed 0"
+        "12 of 12 lifts failed and count as worst; the first, smooth/draw-1 seed 0"
     )
     assert "in act\n" in told
     assert told.endswith("ValueError: no idea")

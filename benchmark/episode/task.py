@@ -12,6 +12,7 @@ from colift.agents.senses import Sense
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.world import BodyParameters, FarEnd, Physics, World
+from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -25,6 +26,8 @@ class Playing(Protocol):
     """The physical world, with its read-outs."""
     frames_per_step: int
     """Motion-capture frames per control period."""
+    table: Table
+    """The table."""
     plan: Plan
     """The human's private plan."""
     target: NDArray[np.float64]
@@ -50,6 +53,9 @@ class Playing(Protocol):
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""
+
+    def seen(self, name: str, age: int) -> float:
+        """Return a past read-out; see :meth:`.View.seen`."""
 
     def robot_view(self) -> Observation:
         """Return the robot's senses: sight, touch, and the task's own."""
@@ -126,9 +132,14 @@ class Task(Protocol):
         """Return the robot's own senses in this task without their errors."""
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> World:
-        """Return a world of a person and a holder of the far end; by default with its physics."""
+        """Return a world of a person, a holder of the far end, and a table; with its physics."""
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""

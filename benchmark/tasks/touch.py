@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple, cast
 
 import numpy as np
-from colift.agents.humans import SUBJECTS
 from colift.agents.rules import SCALARS, ArrayFunctions, N
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
 FINER: Final = Physics(step=0.0025)
@@ -50,11 +48,21 @@ class Touch(Level):
     """For each number of :meth:`missed`, whether the least of a lift counts, or the sum."""
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> BulletWorld:
         """Return a world with torques at both grips, and with the ball."""
         return BulletWorld(
-            human, far_end, physics=physics or self.physics, touch=True, ball=self.rolling
+            human,
+            far_end,
+            table,
+            physics=physics or self.physics,
+            touch=True,
+            ball=self.rolling,
         )
 
     @property
@@ -161,13 +169,3 @@ def frame_of(due: Any, frame: int) -> Any:
 def torque_of(lift: Playing) -> Any:
     """Return the torque of the robot's hands in each frame since the beginning [Nm]."""
     return np.array(lift.world.robot_torque[-lift.frame :][: lift.frame])
-
-
-def subjects_suite(name: str, task: type[Touch], seeds: int) -> Suite:
-    """Return a suite of a task: each behaviour of each of the five subjects, with some seeds."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject, task=task.name)
-        for behaviour in task.behaviours
-        for subject in SUBJECTS
-    )
-    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))

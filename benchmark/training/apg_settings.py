@@ -58,6 +58,8 @@ class ApgSettings:
     """Weight of the cost of bends beside the RMSE. Only for a level table."""
     gentleness: float = 0.0
     """Cost of the force at the human's hands, in mm/N. Only for a level table."""
+    alone: bool = False
+    """Blind to the partner, who is seen only to keep level. Only for tasks with touch."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -65,6 +67,8 @@ class ApgSettings:
         unused = OF_SIGHT if task.touch else ()
         if task.touch and not any(trait.wider for trait in task.person.traits.values()):
             unused = (*unused, "wide")
+        if not task.touch:
+            unused = (*unused, "alone")
         for name in unused:
             if getattr(self, name) != getattr(ApgSettings, name):
                 raise InputError(f"--{name} has no effect on the task {self.task!r}")

@@ -40,15 +40,17 @@ class TouchLesson:
     ----------
     task
         Name of the task.
+    alone
+        Whether the network is blind to its partner; see :class:`.TouchNetwork`.
     """
 
     package: ModuleType = submission
 
-    def __init__(self, task: str) -> None:
+    def __init__(self, task: str, *, alone: bool = False) -> None:
         made = make_task(task)
         if not isinstance(made, Touch):
             raise InputError(f"the task {task!r} is not stated by rules, so that it has no twin")
-        self.task, self.twin = task, TaskTwin(made)
+        self.task, self.alone, self.twin = task, alone, TaskTwin(made)
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
         """Return a network that hardly departs from level."""
@@ -88,7 +90,8 @@ class TouchLesson:
 
     def policy(self, network: Any, count: int) -> tuple[Any, TouchMemory]:
         """Return the policy of a network, and its memory at the beginning of n lifts."""
-        return touch_policy(TouchNetwork(self.task, self.twin.task.senses, network), count)
+        learned = TouchNetwork(self.task, self.twin.task.senses, network, self.alone)
+        return touch_policy(learned, count)
 
     def known(self) -> int:
         """Return how many numbers people know about the task."""
@@ -109,7 +112,9 @@ class TouchLesson:
         """Return the arrays of the policy's file of weights."""
         arrays = {name: np.asarray(array) for name, array in network._asdict().items()}
         scales = [(sense.scale, sense.rate) for sense in self.twin.task.senses]
-        return {**arrays, "task": np.array(self.task), "scales": np.array(scales).reshape(-1, 2)}
+        known = {"alone": np.array(True)} if self.alone else {}
+        rows = np.array(scales).reshape(-1, 2)
+        return {**arrays, "task": np.array(self.task), "scales": rows, **known}
 
     def about(self, settings: ApgSettings) -> tuple[str, str]:
         """Return the manifest's ``description`` and ``trained_on``."""

@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import Embodied
+from colift.agents.humans.following import FOLLOWS_PLAN
 from colift.agents.humans.hand import performed
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
@@ -67,6 +68,11 @@ def check_modelled(scenario: Scenario) -> None:
     if scenario.partner not in MODELLED:
         known = " and ".join(map(repr, MODELLED))
         raise InputError(f"the twin models the partners {known}, not {scenario.partner!r}")
+    if scenario.conditions is not None or scenario.rules is not FOLLOWS_PLAN:
+        raise InputError(
+            f"{scenario.name} has conditions, or people who do not just follow their plan: it "
+            "needs the twin with conditions"
+        )
     check_people(scenario)
 
 
@@ -78,14 +84,25 @@ def check_people(scenario: Scenario) -> None:
     InputError
         If not.
     """
-    if isinstance(scenario.human, Embodied):
-        raise InputError(
-            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
-        )
+    check_scripted(scenario)
     if scenario.latency_frames >= DEPTH:
         raise InputError(
             f"the twin keeps {DEPTH - 1} frames of the past, a latency of {scenario.latency} s "
             "needs more"
+        )
+
+
+def check_scripted(scenario: Scenario) -> None:
+    """Check that people are scripted.
+
+    Raises
+    ------
+    InputError
+        If not.
+    """
+    if isinstance(scenario.human, Embodied):
+        raise InputError(
+            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
         )
 
 

@@ -88,7 +88,7 @@ def test_the_command_shows_what_happened_and_what_waits(filled, colift, tmp_path
 
 def test_json_is_alone_on_stdout(filled, colift):
     told = json.loads(colift("board", "--board", "board", "--json").stdout)
-    assert [(each["group"], each["row"]["name"]) for each in told["rows"]] == [
+    assert [(each["rank"], each["row"]["name"]) for each in told["rows"]] == [
         (1, LONG),
         (2, "blend"),
         (0, "cheat"),

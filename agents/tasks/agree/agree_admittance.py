@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.tasks.agree.agree_leader import check_positive
+from colift.agents.ranges import Positive, check_ranges
 from colift.agents.tasks.agree.approach import HurdleWatch
 from colift.agents.tasks.agree.observation import AgreeObservation
 
@@ -15,24 +15,18 @@ from colift.agents.tasks.agree.observation import AgreeObservation
 class AgreeAdmittanceParameters:
     """Parameters of :class:`AgreeAdmittance`, tuned by hand on seeds of no suite."""
 
-    compliance: float = 0.7
+    compliance: Positive = 0.7
     """c, speed of the hands per force [m/s/N]. A table inclined by 50 mm loads them with 0.8 N."""
-    spring: float = 14.0
+    spring: Positive = 14.0
     """k, speed per distance from the robot's own hurdle [1/s]."""
-    time: float = 0.1
+    time: Positive = 0.1
     """Time constant of the speed [s], the virtual mass over the virtual damping."""
-    early: float = 0.3
+    early: Positive = 0.3
     """Time before its window opens at which the hurdle begins to attract the hands [s]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a number is not positive.
-        """
-        check_positive(self)
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class AgreeAdmittance:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from colift.agents.ranges import Positive
 from colift.agents.tasks.agree.agree_leader import AgreeLeader, AgreeLeaderParameters
 
 
@@ -9,7 +10,7 @@ from colift.agents.tasks.agree.agree_leader import AgreeLeader, AgreeLeaderParam
 class AgreeFollowerParameters(AgreeLeaderParameters):
     """Parameters of :class:`AgreeFollower`."""
 
-    needed: float = 0.75
+    needed: Positive = 0.75
     """Time that it takes for itself at the end of its window [s]."""
 
 

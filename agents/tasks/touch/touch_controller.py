@@ -81,7 +81,9 @@ def touch_network(arrays: Any, source: str) -> TouchNetwork:
     if "task" not in arrays:
         raise InputError(f"{source}: not the weights of a policy by touch: task is missing")
     senses = senses_of(arrays, source)
-    return TouchNetwork(str(arrays["task"]), senses, network_of(arrays, source, inputs_of(senses)))
+    network = network_of(arrays, source, inputs_of(senses))
+    alone = "alone" in arrays and bool(np.asarray(arrays["alone"]).all())
+    return TouchNetwork(str(arrays["task"]), senses, network, alone)
 
 
 def senses_of(arrays: Any, source: str) -> tuple[Sense, ...]:

@@ -18,6 +18,8 @@ from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import AGREE_PEOPLE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.agree.hurdles import Hurdle, HurdlePlan
 from colift.benchmark.tasks.agree.person import Negotiates
@@ -31,7 +33,7 @@ from colift.benchmark.tasks.agree.scores import (
 )
 from colift.benchmark.tasks.agree.second import SecondNegotiator, with_secret
 from colift.benchmark.tasks.agree.table import AGREE_METRICS
-from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -232,5 +234,5 @@ def _window(hurdle: Hurdle | None, frames: int) -> NDArray[np.float64]:
 
 
 def agree_suite() -> Suite:
-    """5 subjects x 6 kinds of hurdles x 4 lifts: half with two hurdles, a third with one."""
-    return subjects_suite("agree-v1", Agree, 4)
+    """25 people x 6 kinds of hurdles: half with two hurdles, a third with one."""
+    return people_suite("agree-v1", Agree.name, Agree.behaviours, AGREE_PEOPLE)

@@ -17,13 +17,15 @@ from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import BALL_PEOPLE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.ball.person import Steers
 from colift.benchmark.tasks.ball.places import BallPlan
 from colift.benchmark.tasks.ball.scores import ball_settling_ms, velocity_peaks
 from colift.benchmark.tasks.ball.second import BallPartner, BallSenses, with_ball
 from colift.benchmark.tasks.ball.table import BALL_METRICS
-from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world import Ball
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
@@ -153,5 +155,5 @@ def _with_ball(lift: Playing, view: Observation, delay: int, *, known: bool) -> 
 
 
 def ball_suite() -> Suite:
-    """5 subjects x 4 behaviours x 5 lifts: a ball that both steer."""
-    return subjects_suite("ball-v1", BallSteering, 5)
+    """25 people x 4 behaviours: a ball that both steer."""
+    return people_suite("ball-v1", BallSteering.name, BallSteering.behaviours, BALL_PEOPLE)

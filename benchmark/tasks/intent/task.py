@@ -15,13 +15,15 @@ from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import INTENT_PEOPLE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.intent.companion import Companion
 from colift.benchmark.tasks.intent.person import Leads
 from colift.benchmark.tasks.intent.poses import PosePlan
 from colift.benchmark.tasks.intent.scores import opposing_work_j, peak_mm, pose_rmse_mm, settling_ms
 from colift.benchmark.tasks.intent.table import INTENT_METRICS
-from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -95,5 +97,5 @@ class Intent(Touch):
 
 
 def intent_suite() -> Suite:
-    """5 subjects x 4 intents x 5 lifts: the poses that a human intends."""
-    return subjects_suite("intent-v1", Intent, 5)
+    """25 people x 4 intents: the poses that a human intends."""
+    return people_suite("intent-v1", Intent.name, Intent.behaviours, INTENT_PEOPLE)
