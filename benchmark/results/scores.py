@@ -166,7 +166,7 @@ class ScoreTable:
 
     def stored(self) -> Self:
         """Return what is left of the table when it is stored and read again."""
-        values = {name: self.values[name] for name in (LEADING, *self.gentle)}
+        values = {name: self.values[name] for name in (LEADING, *self._compared)}
         return type(self)(
             strata=self.strata,
             people=self.people,
@@ -184,9 +184,14 @@ class ScoreTable:
             "means": dict(self.means),
             "gentle": {
                 name: [None if math.isnan(value) else value for value in self.values[name]]
-                for name in self.gentle
+                for name in self._compared
             },
         }
+
+    @property
+    def _compared(self) -> tuple[str, ...]:
+        """The metrics of :attr:`gentle` that the table has."""
+        return tuple(name for name in self.gentle if name in self.values)
 
     @classmethod
     def read(cls, content: object) -> Self:
