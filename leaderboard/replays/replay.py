@@ -144,7 +144,7 @@ def replay_content(
         "scores": {name: _score(value) for name, value in episode.scores.items()},
         "frame_s": FRAME,
         "period_s": scenario.control_period,
-        "latency_s": scenario.latency,
+        "latency_s": scenario.latency if scenario.conditions is None else None,
         "horizon": ghost.horizon,
         "human": changes(trace.human_end),
         "robot": changes(trace.robot_end),
