@@ -1,19 +1,24 @@
 """``colift admit``: a test of whether the lifts of a suite need coordination."""
 
 import dataclasses
+from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 from colift.base.errors import InputError
+from colift.benchmark.admission import inference
 from colift.benchmark.admission.assessment import Admission, admission_of, lifts_to_play
 from colift.benchmark.admission.control import CONTROL, CONTROL_PEOPLE, control_suite, first_people
 from colift.benchmark.admission.criteria import Criterion
+from colift.benchmark.admission.inference import inference_of, needs_inference
 from colift.benchmark.admission.tuning import Tuned, tune, tunings
 from colift.benchmark.execution.progress import job_bar, workers
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import left, show, table
-from colift.benchmark.training.apg_settings import pair_settings
+from colift.benchmark.training.apg_settings import ApgSettings, pair_settings
+from colift.benchmark.training.told_network import write_networks
+from colift.benchmark.training.variants import UPDATES, VARIANTS, budget
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.completion import suites
 from colift.cli.document import print_json
@@ -54,10 +59,23 @@ def admit_suite(
         list[str] | None,
         typer.Option("--policy", metavar="NAME", help="With --tune: this policy only. Repeatable."),
     ] = None,
+    updates: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            help="Updates of each of five networks, for a suite with conditions (extra: train).",
+        ),
+    ] = UPDATES,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="New folder for the weights of these networks."),
+    ] = None,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Test by six criteria whether the lifts of a suite need coordination.
+
+    A suite with conditions is tested for whether there is something to infer, by two criteria.
 
     Exit code 1 if a criterion failed, hangs on one policy or person, or the control passes.
     """
@@ -70,6 +88,14 @@ def admit_suite(
     if policies:
         raise InputError("--policy is for --tune: a test of admission plays all policies")
     episodes = chosen if people is None else first_people(chosen, people)
+    if needs_inference(episodes):
+        if pairs:
+            raise InputError("--pairs is for tasks with touch; this suite has none")
+        found = _infer(episodes, budget(updates), out, jobs)
+        _finish(found, as_json=as_json)
+        return
+    if updates != UPDATES or out is not None:
+        raise InputError(f"--updates and --out are for suites with conditions; {suite} has none")
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     control = None if suite == CONTROL else control_suite(people or CONTROL_PEOPLE)
     total = lifts_to_play(episodes) + (0 if control is None else lifts_to_play(control))
@@ -83,12 +109,38 @@ def admit_suite(
         found = admission_of(
             episodes, pairs=played, control=beside, executor=pool, progress=progress
         )
+    _finish(found, as_json=as_json)
+
+
+def _finish(found: Admission, *, as_json: bool) -> None:
+    """Print a result; end with the exit code 1 if the suite is not admitted."""
     if as_json:
         print_json({**dataclasses.asdict(found), "passed": found.passed})
     else:
         show(_means(found), _criteria(found), _words(found))
     if not found.passed:
         raise typer.Exit(1)
+
+
+def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
+    """Train networks in the twin, and test a suite with conditions by them."""
+    if out is not None and out.exists():
+        raise InputError(f"--out must be a new folder, {out} exists")
+    require_jax()
+    from colift.benchmark.training.conditioned_lesson import ConditionedLesson
+    from colift.benchmark.training.inferring import train_variants
+
+    lesson = ConditionedLesson(suite)
+    with job_bar("networks", len(VARIANTS) * settings.updates) as bar:
+        networks = train_variants(lesson, settings, progress=bar.advance)
+    if out is not None:
+        write_networks(networks, out)
+    total = inference.lifts_to_play(suite, len(networks))
+    with (
+        reported_interrupt("a suite is tested with all networks or not at all"),
+        workers("admit", total, jobs) as (pool, progress),
+    ):
+        return inference_of(suite, networks, executor=pool, progress=progress)
 
 
 def _cross_play(task: str, count: int) -> NDArray[np.float64]:
@@ -168,8 +220,9 @@ def _figure(each: Criterion) -> str:
 def _words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    fragile = "; ".join(found.fragile) or "no verdict changes without any one policy or person"
-    lines.append(f"fragility: {fragile}")
+    if found.fragile is not None:
+        fragile = "; ".join(found.fragile) or "no verdict changes without any one policy or person"
+        lines.append(f"fragility: {fragile}")
     if found.control is not None:
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")

@@ -67,7 +67,11 @@ class Memory(NamedTuple):
 
 
 def act(
-    network: GatedNetwork, memory: Memory, observation: Any, functions: ArrayFunctions
+    network: GatedNetwork,
+    memory: Memory,
+    observation: Any,
+    functions: ArrayFunctions,
+    told: Any = None,
 ) -> tuple[Memory, Any]:
     """Return the memory after a step, and the change of the command [m].
 
@@ -86,6 +90,8 @@ def act(
         (5, ...) observations of :class:`.RobotObservation`.
     functions
         The library of the arrays.
+    told
+        (k, ...) more inputs, of a network that is told more than a policy; None is none.
     """
     height = observation[RobotObservation.HUMAN_END]
     command = observation[RobotObservation.HAND_COMMAND]
@@ -103,6 +109,8 @@ def act(
             50.0 * (observation[RobotObservation.ROBOT_END] - height),
         )
     )
+    if told is not None:
+        inputs = functions.join((inputs, told))
     units = gated(network, memory.units, inputs, functions)
     output = functions.product(network.output, functions.join((units, inputs)))
     correction = output[0] + network.output_bias[0]

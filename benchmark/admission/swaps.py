@@ -50,12 +50,12 @@ def swaps(played: Played) -> list[Swap]:
     Half of a person's lifts choose the better policy of a pair for this person, the other half
     tests the choice, and then the halves change places. Where one policy is at least as good with
     everybody, a choice of the other is chance, and the lifts that test it show no lead. A lead is
-    the mean logarithm of the ratio of the errors over all tests of a choice, with the jackknife's
-    standard error over people. A swap needs both leads, so that its p value is the larger one of
-    two one-sided tests; the p values of all pairs are corrected together by Holm's method.
+    the mean logarithm of the ratio of the mean errors over all tests of a choice, with the
+    jackknife's standard error over people. A swap needs both leads, so that its p value is the
+    larger one of two one-sided tests; the p values of all pairs are corrected together by Holm's
+    method.
     """
-    logs = np.log(played.errors)
-    first, second = logs[..., 0::2].mean(axis=-1), logs[..., 1::2].mean(axis=-1)
+    first, second = (np.log(played.errors[..., half::2].mean(axis=-1)) for half in (0, 1))
     one, other = np.triu_indices(len(played.players), 1)
     early, late = first[one] - first[other], second[one] - second[other]
     tail = FAMILY / len(one)

@@ -9,6 +9,7 @@ from colift.benchmark.comparison.ranking import Ranking
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.goals import goal_scores
+from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 
 SURE: Final = 0.975
@@ -70,7 +71,7 @@ def picture_caption(axes: Axes, front: Sequence[str]) -> str:
     return (
         "Higher and further left is better. Bars are 95 % intervals. "
         f"{joined if front else ''}The diamond is the {HUMAN_HUMAN_LABEL}; "
-        "squares are bounds, the limits of what a policy could reach."
+        "squares are references, which have no rank."
     )
 
 
@@ -88,7 +89,7 @@ def picture_title(comparison: Comparison) -> str:
         f"How {level} and how {smooth}: {title(comparison)}\n"
         f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
         f"Orange: no other policy is both {more_level} and {smoother}."
-        + (" Squares: bounds." if comparison.results.bounds else "")
+        + (" Squares: references." if comparison.results.references else "")
     )
 
 
@@ -130,6 +131,14 @@ def failures(comparison: Comparison) -> list[str]:
                 f"as worst; first reason: {reasons[0]}"
             )
     return sentences
+
+
+def roughness(comparison: Comparison) -> list[str]:
+    """Return the meaning of the mark, and by which metrics each marked policy is rougher."""
+    marked = [ranked for ranked in comparison.overall.policies if ranked.rougher]
+    metrics = comparison.results.suite.metrics
+    by = (f"{ranked.name} by {by_which(ranked.rougher or (), metrics)}" for ranked in marked)
+    return [f"{MEANING} {'; '.join(by)}."] if marked else []
 
 
 def goals(comparison: Comparison) -> list[str]:

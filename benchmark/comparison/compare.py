@@ -23,7 +23,7 @@ class Comparison:
     subjects: tuple[Ranking, ...]
     """Nothing where there are more than :data:`MOST_SUBJECTS`."""
     points: tuple[FrontPoint, ...]
-    """The policies, the least error first; then the human-human baseline and the bounds."""
+    """The policies, the least error first; then the human-human baseline and the references."""
 
     @property
     def front(self) -> tuple[str, ...]:
@@ -69,11 +69,11 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
     others = [
         FrontPoint(
             name=name,
-            rmse_mm=overall.references_rmse_mm[name],
+            rmse_mm=overall.unranked_rmse_mm[name],
             second=exact(baseline.means[second.name]),
-            kind="baseline" if name == HUMAN_HUMAN_LABEL else "bound",
+            kind="baseline" if name == HUMAN_HUMAN_LABEL else "reference",
         )
-        for name, baseline in results.references.items()
+        for name, baseline in results.unranked.items()
     ]
     return (*policies, *others)
 

@@ -6,6 +6,7 @@ from typing import Literal
 
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import (
     Estimate,
@@ -33,6 +34,8 @@ class RankedPolicy:
     partner."""
     better_than_human: float | None
     """Probability that ``vs_human`` is below 1 with other people; None with a single person."""
+    rougher: tuple[str, ...] | None
+    """Metrics by which it is rougher than two people; None if that is not known."""
     metrics: Mapping[str, Estimate | None]
     """The other metrics that boards show, over the lifts that have a value; None if none has."""
     to_best: PairedDifference | None
@@ -60,9 +63,9 @@ class Ranking:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    references_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.PairedResults.references`."""
-    references_vs_human: Mapping[str, Estimate]
+    unranked_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.PairedResults.unranked`."""
+    unranked_vs_human: Mapping[str, Estimate]
     """Its ratio to the human-human baseline."""
     policies: tuple[RankedPolicy, ...]
     """In the order of the mean RMSE, the best first; ranks have the same order."""
@@ -75,7 +78,7 @@ class Ranking:
     @property
     def human_human_rmse_mm(self) -> Estimate:
         """RMSE of the human-human baseline."""
-        return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
+        return self.unranked_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, ranked: RankedPolicy) -> bool:
         """Return whether no policy is better than this one, if there are enough people to tell."""
@@ -90,7 +93,7 @@ def rank_policies(
     Parameters
     ----------
     results
-        Results of the policies, baseline and bounds.
+        Results of the policies, baseline and references.
     kind, name
         Kind and name of the subset: a behaviour, a subject, or all.
     members
@@ -100,14 +103,14 @@ def rank_policies(
     human_human = results.human_human.select(members)
     units = human_human.units
     family = all_pairs({name: scores.rmse_mm for name, scores in tables.items()}, units)
-    references = {name: baseline.select(members) for name, baseline in results.references.items()}
+    unranked = {name: baseline.select(members) for name, baseline in results.unranked.items()}
     return Ranking(
         kind=kind,
         name=name,
         episodes=len(members),
-        references_rmse_mm={name: baseline.error for name, baseline in references.items()},
-        references_vs_human={
-            name: baseline.against(human_human).ratio for name, baseline in references.items()
+        unranked_rmse_mm={name: baseline.error for name, baseline in unranked.items()},
+        unranked_vs_human={
+            name: baseline.against(human_human).ratio for name, baseline in unranked.items()
         },
         policies=tuple(
             RankedPolicy(
@@ -117,6 +120,7 @@ def rank_policies(
                 rmse_mm=scores.error,
                 vs_human=scores.against(human_human).ratio,
                 better_than_human=scores.against(human_human).probability,
+                rougher=rougher(scores, human_human, results.suite.metrics),
                 metrics={each.name: scores.estimate(each.name) for each in results.metrics},
                 to_best=_to_best(tables, family, name),
                 same_as_best=not family.apart(name, family.names[0]),

@@ -5,13 +5,19 @@ from dataclasses import replace
 
 from colift.agents.humans import Subject
 from colift.base.errors import InputError
+from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.ranges import LEARNING_PEOPLE
 from colift.benchmark.suites.suite import Suite
 
 
 def people_suite(
-    name: str, task: str, behaviours: Sequence[str], people: range, lifts: int = 1
+    name: str,
+    task: str,
+    behaviours: Sequence[str],
+    people: range,
+    lifts: int = 1,
+    conditions: Conditions | None = None,
 ) -> Suite:
     """Return a suite in which each drawn person plays all behaviours.
 
@@ -29,6 +35,8 @@ def people_suite(
         Numbers of the people, who are ``draw-K``.
     lifts
         Number of lifts of each person with each behaviour: the seeds 0, 1, ...
+    conditions
+        Ranges of what is drawn for each lift; see :attr:`.Scenario.conditions`.
 
     Raises
     ------
@@ -43,7 +51,7 @@ def people_suite(
         )
     subjects = [Subject.draw(person) for person in people]
     scenarios = tuple(
-        replace(made, subject=subject)
+        replace(made, subject=subject, conditions=conditions)
         for made in (make_scenario(behaviour, task=task) for behaviour in behaviours)
         for subject in subjects
     )

@@ -23,6 +23,9 @@ BALL_PEOPLE: Final = range(301, 326)
 INTENT_PEOPLE: Final = range(401, 426)
 """People of ``intent-v1``."""
 
+ROBUST_PEOPLE: Final = range(501, 541)
+"""People of ``robust-v1``."""
+
 RECORDED_PEOPLE: Final = range(1_001, 2_001)
 """People whose bodies recorded motion has, in turn."""
 

@@ -4,7 +4,7 @@ import dataclasses
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -139,6 +139,8 @@ class Suite:
     def with_timing(self, latency: float | None, control_period: float | None) -> "Suite":
         """Return the same episodes with another latency or control period [s].
 
+        With conditions, it is the latency of all lifts; jitter and losses remain.
+
         Raises
         ------
         InputError
@@ -155,8 +157,16 @@ class Suite:
         return dataclasses.replace(
             self,
             name=f"{self.name} ({shown})",
-            scenarios=tuple(dataclasses.replace(scene, **changes) for scene in self.scenarios),
+            scenarios=tuple(_timed(scene, changes) for scene in self.scenarios),
         )
+
+
+def _timed(scenario: Scenario, changes: Mapping[str, Any]) -> Scenario:
+    """Return a scenario with another latency or control period [s]."""
+    conditions, latency = scenario.conditions, changes.get("latency")
+    if conditions is not None and latency is not None:
+        conditions = dataclasses.replace(conditions, latency=(latency, latency))
+    return dataclasses.replace(scenario, conditions=conditions, **changes)
 
 
 def plain_name(name: str) -> str:

@@ -53,10 +53,12 @@ class RankedRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HumanHumanScores:
-    """The human-human baseline on a season's hidden episodes."""
+class UnrankedScores:
+    """The human-human baseline, or a reference, on a season's hidden episodes."""
 
     rmse_mm: Estimate
+    ratio: float
+    """``vs_human``; 1 for the human-human baseline."""
     means: Mapping[str, float | None]
     """Means of the other metrics of a board, by name."""
 
@@ -85,13 +87,14 @@ def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_human_scores(human_human: ScoreTable, suite: str) -> HumanHumanScores:
-    """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
-    return HumanHumanScores(
-        rmse_mm=human_human.error.rounded(PLACES),
+def unranked_scores(scores: ScoreTable, human_human: ScoreTable, suite: str) -> UnrankedScores:
+    """Return the published part of scores on a suite's hidden episodes, rounded like a row."""
+    return UnrankedScores(
+        rmse_mm=scores.error.rounded(PLACES),
+        ratio=round(scores.against(human_human).ratio.mean, PLACES),
         means={
             name: None if mean is None else round(mean, PLACES)
-            for name, mean in known_means(human_human.means, suite).items()
+            for name, mean in known_means(scores.means, suite).items()
         },
     )
 
@@ -126,6 +129,7 @@ HIDDEN_COLUMNS: Final = (
     "vs_human_low",
     "vs_human_high",
     "better_than_human",
+    "rougher",
     "failed",
     "public_rmse_mm",
     "public_rmse_mm_low",
@@ -157,6 +161,7 @@ def _flat(each: RankedRow) -> tuple[object, ...]:
         hidden.vs_human.mean,
         *_ends(hidden.vs_human),
         hidden.better_than_human,
+        None if hidden.rougher is None else " ".join(hidden.rougher),
         hidden.failed,
         public.rmse_mm.mean,
         *_ends(public.rmse_mm),

@@ -12,10 +12,12 @@ from colift.agents.sandbox.host.levels import VERIFIABLE
 from colift.agents.spec import AgentSpec
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.comparison.playing import play_references
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.distributions import library_versions
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import (
     BASELINES,
     HUMAN_HUMAN,
@@ -199,6 +201,21 @@ def play_human_human(
     watch = watch or Callbacks()
     watch.stage("human-human baseline")
     return ScoreTable.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
+
+
+def play_season_references(
+    season: Season,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, ScoreTable]:
+    """Return the references of a season's suite on its hidden episodes, by name.
+
+    They stand beside the rows, on the rows' lifts. ``progress`` is called with each number of
+    episodes that has been played.
+    """
+    known = suite_references(season.hidden)
+    return play_references(known, season.hidden, executor=executor, progress=progress)
 
 
 def _baselines(

@@ -15,10 +15,10 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     off: tr.querySelector(".off"),
     index,
   }));
-  // Two people and the bounds, below the policies.
+  // Two people and the references, below the policies.
   const baselines = [...table.querySelectorAll(".baselines tr")].map((tr) => ({
     tr,
-    bound: tr.dataset.bound,
+    reference: tr.dataset.reference,
     stratum: Object.fromEntries(shown.map((name) => [name, tr.querySelector("td." + name)])),
     dot: tr.querySelector(".dot"),
     off: tr.querySelector(".off"),
@@ -36,7 +36,7 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
   const lines = (name) => [...document.querySelectorAll(`#backdrop .${name}, .board .scale .${name}`)].map((line) => ({
     line, at: line.getAttribute("x1") || line.getAttribute("x"),
   }));
-  const humanHumanLines = lines("human-human"), bounds = lines("bound");
+  const humanHumanLines = lines("human-human"), references = lines("reference");
   const bands = [...document.querySelectorAll("#backdrop .band")];
   const [query, behaviour, choice, status, more] =
     ["q", "behaviour", "sort", "status", "more"].map(field);
@@ -92,9 +92,9 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     }
   }
 
-  function moveLines(humanHuman, bound) {
+  function moveLines(humanHuman, reference) {
     move(humanHumanLines, humanHuman);
-    move(bounds, bound);
+    move(references, reference);
     for (const band of bands) band.classList.toggle("away", humanHuman !== null);
   }
 
@@ -110,17 +110,17 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
         write(each.mean, data.metrics[i].digits), each.mean !== null && each.missing ? "none in " + each.missing : ""));
       draw(row, found.rmse, at(found.rmse || 0));
     }
-    let causal = null;
+    let bestKnown = null;
     for (const row of baselines) {
-      const [rmse, ratio] = row.bound === undefined ?
-        [humanHuman, humanHuman === null ? null : 1] : data.bounds[row.bound][chosen];
+      const [rmse, ratio] = row.reference === undefined ?
+        [humanHuman, humanHuman === null ? null : 1] : data.references[row.reference][chosen];
       show(row.stratum.rmse, rmse, write(rmse, 1));
       show(row.stratum.ratio, null, write(ratio, 2));
       for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
-      if (row.tr.dataset.causal !== undefined) causal = rmse;
+      if (row.tr.dataset.trained !== undefined) bestKnown = rmse;
     }
-    moveLines(humanHuman, causal);
+    moveLines(humanHuman, bestKnown);
   }
 
   function all() {

@@ -14,12 +14,11 @@ from colift.benchmark.results.strata import (
 )
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.bounds import PublicBound, bounds_of
 from colift.leaderboard.views.lifts import Part, known, parts_of
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
@@ -31,9 +30,10 @@ from colift.leaderboard.views.page import (
     ordered_seasons,
 )
 from colift.leaderboard.views.picture import PICTURED, pictures
+from colift.leaderboard.views.references import SeasonReference, references_of
 
-Reference = Mapping[str, Any]
-"""A line below the policies: the human-human baseline, or a ``bound``.
+Unranked = Mapping[str, Any]
+"""A line below the policies: the human-human baseline, or a ``reference``.
 
 ``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
 other metrics, all None on a part of the lifts.
@@ -73,10 +73,10 @@ def board_page(
     strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
     behaviours = tuple(dict.fromkeys(stratum.behaviour for stratum in strata))
     lines = lines_of(board, table, asked, behaviours, most)
-    human_human, known_bounds = board.human_human(info.name), bounds_of(info)
+    human_human, known_references = board.human_human(info.name), references_of(board, info)
     events = board.events(season=info.name, newest=ROWS)
-    wide, narrow = pictures(table, human_human, known_bounds)
-    bounds = [_bound(each, asked.part) for each in known_bounds]
+    wide, narrow = pictures(table, human_human, known_references)
+    references = [_reference(each, asked.part) for each in known_references]
     shown = {each.standing.row.submission for each in lines.rows}
     axis, total, part = _axis(table, human_human), len(table.ranking), asked.part
     return {
@@ -97,9 +97,14 @@ def board_page(
         "slow": table.sections["not real-time"],
         "out": (*table.sections["unverified"], *table.sections["out"]),
         "people": _people(human_human, strata, part),
-        "bounds": bounds,
-        "causal": next(
-            (mm.mean for each in bounds if each["bound"].causal and (mm := each["rmse_mm"])), None
+        "references": references,
+        "best_known_mm": next(
+            (
+                mm.mean
+                for each in references
+                if each["reference"].trained and (mm := each["rmse_mm"])
+            ),
+            None,
         ),
         "human_human": human_human,
         "human_human_mm": {
@@ -119,7 +124,7 @@ def board_page(
         "most": most,
         "most_pictured": PICTURED,
         "pictured": sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
-        "data": _drawn(info.suite, axis, lines.rows, strata, known_bounds),
+        "data": _drawn(info.suite, axis, lines.rows, strata, known_references),
     }
 
 
@@ -128,14 +133,14 @@ def _drawn(
     axis: Axis,
     rows: Sequence[RankedLine],
     strata: Sequence[StratumScore],
-    bounds: Sequence[PublicBound],
+    references: Sequence[SeasonReference],
 ) -> dict[str, Any]:
     """Return the data that the page's script shows: each row's public lifts, by behaviour.
 
     ``behaviours`` has their names and the human-human RMSE [mm]; ``rows`` has, for each row of the
     table in its order and each behaviour, the RMSE [mm] and ``vs_human``, then for each of
-    ``metrics`` the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm] and
-    ``vs_human``.
+    ``metrics`` the mean and the lifts without a value; ``references`` has each reference's RMSE
+    [mm] and ``vs_human``, None where they are not known.
     """
     metrics, parts = board_metrics(suite), parts_of(strata)[1:]
     return {
@@ -152,12 +157,12 @@ def _drawn(
             ]
             for row in rows
         ],
-        "bounds": [
+        "references": [
             [
-                [round(value, 4) for value in each.numbers[behaviour]]
+                [_rounded(value) for value in each.numbers.get(behaviour, (None, None))]
                 for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata)
             ]
-            for each in bounds
+            for each in references
         ],
     }
 
@@ -165,7 +170,7 @@ def _drawn(
 _axes: WeakKeyDictionary[Table, Axis] = WeakKeyDictionary()
 
 
-def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
+def _axis(table: Table, human_human: UnrankedScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
@@ -175,29 +180,33 @@ def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
 
 
 def _people(
-    human_human: HumanHumanScores | None, strata: Sequence[StratumScore], part: Part | None
-) -> Reference | None:
+    human_human: UnrankedScores | None, strata: Sequence[StratumScore], part: Part | None
+) -> Unranked | None:
     """Return the line of the human-human baseline."""
     if human_human is None:
         return None
     if part is None:
         rmse: Estimate | None = human_human.rmse_mm
-        return {"bound": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
+        return {"reference": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
     mean = human_human_mean(part.of(strata))
     rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
     means = dict.fromkeys(human_human.means)
-    return {"bound": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
+    return {"reference": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _bound(bound: PublicBound, part: Part | None) -> Reference:
+def _reference(reference: SeasonReference, part: Part | None) -> Unranked:
     if part is None:
-        mine, people = bound.scores, bound.human_human
-        whole = mine.against(people).ratio.mean
-        return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
-    mean, ratio = bound.numbers.get(part.behaviour or "", (None, None))
+        hidden = reference.hidden
+        return {
+            "reference": reference,
+            "rmse_mm": hidden.rmse_mm,
+            "ratio": hidden.ratio,
+            "means": hidden.means,
+        }
+    mean, ratio = reference.numbers.get(part.behaviour or "", (None, None))
     rmse = None if mean is None else known(mean)
-    means = dict.fromkeys(bound.means)
-    return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
+    means = dict.fromkeys(reference.means)
+    return {"reference": reference, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
 def _numbers(

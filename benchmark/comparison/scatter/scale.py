@@ -96,7 +96,7 @@ class Scale:
 
 def make_scale(points: Sequence[FrontPoint], plot: Box, metric: Metric) -> Scale:
     """Return a scale that shows most of the points; those far off do not count."""
-    far = far_limit([point.rmse_mm.mean for point in points if point.kind != "bound"])
+    far = far_limit([point.rmse_mm.mean for point in points if point.kind != "reference"])
     near = [point for point in points if point.rmse_mm.mean <= far]
     shown = [each.second for each in near if each.second]
     low, high = _padded([end for each in shown for end in (each.mean, *each.ends)] or [0.0])

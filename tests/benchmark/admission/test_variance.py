@@ -27,6 +27,12 @@ def test_people_alone():
     assert of([[1.0, 2.0], [1.0, 2.0]]).person == pytest.approx(1.0)
 
 
+def test_of_what_people_change_the_means_of_policies_are_no_part():
+    table = 0.5 * np.eye(6) + np.arange(6.0)[:, np.newaxis]
+    assert of(table).interaction < 0.1
+    assert of(table).between_people == pytest.approx(1.0)
+
+
 def test_the_noise_of_lifts_and_what_a_behaviour_asks_for_are_no_interaction():
     rng = np.random.default_rng(1)
     found = []

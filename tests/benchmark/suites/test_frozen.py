@@ -6,10 +6,10 @@ import pytest
 from colift.agents.humans import SUBJECTS, Subject
 from colift.base.errors import InputError
 from colift.base.registry import SUITES, own_entries
-from colift.benchmark.bounds.held_out import held_out_suite
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
 from colift.benchmark.export.fixed_sets import FIRST_SEED as EXPORTED
 from colift.benchmark.export.fixed_sets import MOST_LIFTS
+from colift.benchmark.references.held_out import held_out_suite
 from colift.benchmark.suites import ranges
 from colift.benchmark.suites.people import people_suite
 from colift.benchmark.suites.suite import make_suite

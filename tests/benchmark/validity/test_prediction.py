@@ -42,6 +42,14 @@ def test_poor_policies_do_not_hide_a_wrong_order_of_the_better_half(suite):
     assert found.kendall_best_half.value == pytest.approx(-1.0)
 
 
+def test_the_order_of_those_that_beat_two_people_has_numbers_of_its_own(suite):
+    turned = MEANS | {"a": 7.0, "c": 4.0}
+    better = predict(scores(turned, seed=2), suite).better
+    assert better.policies == ("a", "b", "c")
+    assert (better.spearman.value, better.kendall.value) == (-1.0, -1.0)
+    assert predict(suite, scores(MEANS, human_human=6.0)).better is None
+
+
 def test_policies_beyond_two_people_on_one_side_only_are_named(suite):
     moved = MEANS | {"b": 12.0, "c": 8.02, "e": 6.0}
     found = predict(scores(moved, seed=2), suite)

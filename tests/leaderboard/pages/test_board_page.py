@@ -6,7 +6,7 @@ import json
 
 import pytest
 from colift.benchmark.bundle.files import RESULTS
-from colift.benchmark.results.baselines import shipped_bounds
+from colift.benchmark.results.baselines import shipped_references
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.core.board import Board
 from playwright.sync_api import expect
@@ -186,24 +186,27 @@ def test_columns_by_behaviour_show_the_means_of_the_public_lifts(page, front, pl
     assert numbers(page, "b2") == sorted(numbers(page, "b2"))
 
 
-def test_two_people_and_the_bounds_stand_below_the_policies_and_follow_a_filter(
+def test_two_people_and_the_references_stand_below_the_policies_and_follow_a_filter(
     page, front, folder
 ):
     page.goto(front)
     board = Board.open(folder)
-    human_human = board.human_human()
+    human_human, references = board.human_human(), board.references()
     board.close()
-    bounds = shipped_bounds(make_suite("quick-v1"))
     rows = page.locator(".baselines tr")
     expect(rows).to_have_count(3)
     expect(rows.nth(0).locator(".rmse b")).to_have_text(f"{human_human.rmse_mm.mean:.1f}")
-    expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
-    expect(rows.nth(2).locator(".rmse b")).to_have_text(f"{bounds['oracle'].mean:.2f}")
+    expect(rows.nth(1).locator(".rmse b")).to_have_text(
+        f"{references['best_known'].rmse_mm.mean:.1f}"
+    )
+    expect(rows.nth(2).locator(".rmse b")).to_have_text(f"{references['oracle'].rmse_mm.mean:.2f}")
     page.locator("#behaviour").select_option("jerky")
-    jerky = bounds["causal_bound"].part("jerky").mean
+    jerky = shipped_references(make_suite("quick-v1"))["best_known"].part("jerky").mean
     expect(rows.nth(1).locator(".rmse")).to_have_text(f"{jerky:.1f}")
     page.locator("#behaviour").select_option("")
-    expect(rows.nth(1).locator(".rmse b")).to_have_text(f"{bounds['causal_bound'].mean:.1f}")
+    expect(rows.nth(1).locator(".rmse b")).to_have_text(
+        f"{references['best_known'].rmse_mm.mean:.1f}"
+    )
 
 
 def test_the_first_rows_are_above_the_fold_and_the_heads_stand_at_one_height(page, front):
@@ -232,12 +235,12 @@ def test_on_a_telephone_a_row_is_two_lines_and_unfolds(page, front):
     expect(page.get_by_label("Sort by")).to_be_visible()
 
 
-def test_the_picture_has_the_table_s_line_of_two_people_and_the_bounds(page, front):
+def test_the_picture_has_the_table_s_line_of_two_people_and_the_references(page, front):
     page.goto(front)
     table = page.locator(".baselines tr").first.locator(".rmse b").text_content()
     told = page.locator("svg.wide path.baseline title").text_content()
     assert told.startswith(f"two people: RMSE {table} mm")
-    expect(page.locator("svg.wide path.bound")).to_have_count(2)
+    expect(page.locator("svg.wide path.reference")).to_have_count(2)
 
 
 def test_the_picture_names_the_front(page, front):

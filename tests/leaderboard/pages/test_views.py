@@ -8,7 +8,7 @@ from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import Links
@@ -42,7 +42,7 @@ def shown(folder):
 
 
 def human_human(mean):
-    return HumanHumanScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
+    return UnrankedScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
 
 
 def around(mean):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, HumanObservation
 from colift.agents.humans import SecondPerson
-from colift.agents.tasks.touch.touched import SUPPORT
+from colift.agents.humans.felt import SUPPORT
 from colift.benchmark.episode.turns import policy_seed
 from colift.play.rooms.priority import ORDINARY, RELAY, take_turn
 from numpy.typing import NDArray
@@ -110,6 +110,7 @@ class Driven:
         await self.page.wait_for("Boolean(window.coliftPlay && coliftPlay.page)")
         await self.page.evaluate(
             f"""document.querySelector('input[name="partner"][value="{partner}"]').click();
+            document.querySelector('input[name="consent"]').click();
             [...document.querySelectorAll("button")].find(
               (each) => each.textContent.trim() === "To the table").click()"""
         )
