@@ -7,10 +7,9 @@ from typing import Final
 import numpy as np
 from colift.agents.agent import FRAME, Action, HumanObservation, Observation
 from colift.agents.calibration import CALIBRATION
-from colift.agents.humans.felt import felt_force
+from colift.agents.humans.felt import FELT_HEIGHT, felt_force
 from colift.agents.humans.scripted import ScriptedHuman
 from colift.agents.humans.subject import Subject
-from colift.agents.tasks.touch.touched import TABLE_LENGTH, WRIST_STIFFNESS
 
 SECOND_PERSON: Final = Subject(
     name="partner",
@@ -97,7 +96,7 @@ class SecondPerson:
             self._height = height
             elapsed = FRAME
         future = self._ahead + FRAME * np.arange(1, frames + 1)
-        apart = felt_force(observation) * TABLE_LENGTH**2 / WRIST_STIFFNESS
+        apart = felt_force(observation) * FELT_HEIGHT
         wanted = self._height - self._parameters.yielding * apart
         meant = observation.copy()
         meant[HumanObservation.TARGET] = wanted + self._velocity * future

@@ -16,8 +16,9 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.training.anticipation import CURRICULUM, HIDDEN, Lesson, learned
+from colift.benchmark.training.anticipation import HIDDEN, Lesson, learned
 from colift.benchmark.training.data import Timing, TrainingData
+from colift.benchmark.training.population import CURRICULUM, SETTLED, UNSETTLED
 
 WHOLE: Final = "nothing: the complete policy"
 
@@ -49,7 +50,8 @@ VARIANTS: Final = (
     Variant(name="the non-linearity: a linear map instead of the perceptron", hidden=()),
     Variant(name="the longer history: 0.4 s instead of 2 s", window={"velocities": 4}),
     Variant(name="the second training round", first_round=True),
-    Variant(name="roaming people in the training data", only=BEHAVIOURS),
+    Variant(name="roaming people in the training data", only=(*BEHAVIOURS, UNSETTLED)),
+    Variant(name="unsettled people in the training data", only=SETTLED),
     Variant(name="the arm's lag", parameters={"arm_lag": 0.0}),
     Variant(name="compensation of the sag", parameters={"sag_memory": 1e9}),
     Variant(
@@ -108,7 +110,7 @@ def moving(data: TrainingData, behaviours: Sequence[str]) -> TrainingData:
     """Return the part of the training data with some behaviours of :data:`.CURRICULUM`."""
     if behaviours == CURRICULUM:
         return data
-    chosen = np.isin(data.seeds % len(CURRICULUM), [CURRICULUM.index(each) for each in behaviours])
+    chosen = np.isin(data.seeds % len(CURRICULUM), np.flatnonzero(np.isin(CURRICULUM, behaviours)))
     return TrainingData(
         inputs=data.inputs[chosen], outcomes=data.outcomes[chosen], seeds=data.seeds[chosen]
     )

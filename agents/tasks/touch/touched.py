@@ -12,9 +12,6 @@ TABLE_LENGTH: Final = 0.8
 WRIST_STIFFNESS: Final = 10.0
 """Pitch stiffness of a person's two wrists [Nm/rad]."""
 
-SUPPORT: Final = 0.35 * 9.81 / 2
-"""Half of the table's weight [N], which hands feel when nothing else pulls."""
-
 FAR_STIFFNESS: Final = 1.0
 """Pitch stiffness of the robot's grip [Nm/rad]."""
 

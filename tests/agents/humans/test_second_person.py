@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation
 from colift.agents.humans import SECOND_PERSON, SecondPerson
+from colift.agents.humans.felt import FELT_HEIGHT, SUPPORT
 from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import InMemorySpec
-from colift.agents.tasks.touch.touched import SUPPORT
 from colift.benchmark.execution.batches import play
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
 
 
 def view(own, other, frames=10, force=0.0):
@@ -79,6 +80,11 @@ def test_it_acts_at_every_control_period(frames):
     assert np.isfinite(references).all()
     speed = np.diff(references).mean() if frames > 1 else 0.0005
     assert speed == pytest.approx(0.0005, abs=0.0002)
+
+
+def test_people_know_their_table():
+    assert pytest.approx(WEIGHT_SHARE) == SUPPORT
+    assert pytest.approx(TABLE_LENGTH**2 / GRIP_STIFFNESS) == FELT_HEIGHT
 
 
 def test_it_gives_way_to_what_it_feels():

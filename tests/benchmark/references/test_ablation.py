@@ -10,8 +10,9 @@ from colift.benchmark.references.held_out import held_out_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.training.anticipation import CURRICULUM, Lesson, learn_anticipation
+from colift.benchmark.training.anticipation import Lesson, learn_anticipation
 from colift.benchmark.training.data import TrainingData, window_inputs
+from colift.benchmark.training.population import CURRICULUM, SETTLED
 
 
 def test_narrower_experience_is_what_a_narrower_window_sees():
@@ -25,7 +26,11 @@ def test_narrower_experience_is_what_a_narrower_window_sees():
     )
     assert narrowed(data, narrow).inputs == pytest.approx(window_inputs(human, narrow))
     assert narrowed(data, wide).inputs == pytest.approx(data.inputs)
-    assert moving(data, BEHAVIOURS).seeds.tolist() == [i for i in range(40) if i % 5 != 4]
+    assert moving(data, BEHAVIOURS).seeds.tolist() == [i for i in range(40) if i % 8 < 4]
+    assert moving(data, SETTLED).seeds.tolist() == [i for i in range(40) if i % 8 < 5]
+    unsettled = (*BEHAVIOURS, "unsettled")
+    assert moving(data, unsettled).seeds.tolist() == [i for i in range(40) if i % 8 != 4]
+    assert moving(data, CURRICULUM) is data
 
 
 def test_each_variant_lacks_one_part():

@@ -107,7 +107,7 @@ def test_a_row_has_the_scores_of_both_runs(evaluation, season, human_human):
     assert row.gap.mean == round(np.exp(logs[1] - logs[0]), 2)
     assert list(evaluation.hidden_rmse_mm) == errors[1]
     for each in (row.public.rmse_mm, row.hidden.rmse_mm, row.hidden.vs_human, row.gap):
-        assert each.ci95[0] < each.mean < each.ci95[1]
+        assert each.ci95 is None, "all lifts are of one person"
     assert (row.public.episodes, row.hidden.episodes) == (2, 2)
     assert (row.commitment, row.suite_digest) == (commitment(season.secret), season.suite.digest)
 
@@ -275,7 +275,7 @@ def test_all_that_is_told_of_hidden_episodes_is_this(evaluation):
         "episodes", "failed", "failures", "rmse_mm", "vs_human", "better_than_human", "real_time"
     }  # fmt: skip
     for estimate in (hidden["rmse_mm"], hidden["vs_human"], evaluation.row.plain()["gap"]):
-        for value in (estimate["mean"], *estimate["ci95"]):
+        for value in (estimate["mean"], *(estimate["ci95"] or ())):
             assert value == round(value, 2)
 
 

@@ -16,14 +16,14 @@ LONGEST_S = 60.0
 def slow_ranks(monkeypatch):
     """Return two events: that ranks are being computed, and that they may be finished."""
     begun, go = threading.Event(), threading.Event()
-    grouped = ranks.grouped
+    tested = ranks.all_pairs
 
-    def waiting(errors, **more):
+    def waiting(errors, people):
         begun.set()
         assert go.wait(LONGEST_S)
-        return grouped(errors, **more)
+        return tested(errors, people)
 
-    monkeypatch.setattr(ranks, "grouped", waiting)
+    monkeypatch.setattr(ranks, "all_pairs", waiting)
     yield begun, go
     go.set()
 

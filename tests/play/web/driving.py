@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, HumanObservation
 from colift.agents.humans import SecondPerson
-from colift.agents.tasks.touch.touched import SUPPORT
+from colift.agents.humans.felt import SUPPORT
 from colift.benchmark.episode.turns import policy_seed
 from colift.play.rooms.priority import ORDINARY, RELAY, take_turn
 from numpy.typing import NDArray
