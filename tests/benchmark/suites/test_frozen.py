@@ -18,13 +18,13 @@ from colift.benchmark.training.demonstrations import LIFTS
 from colift.benchmark.training.task_model import TUNING_LIFTS, TUNING_SEED
 
 FROZEN = {
-    "agree-v1": "bf51b13046bf73b6",
-    "ball-v1": "e26d989bb9430c4d",
-    "intent-v1": "3a74774e9b6e1f5a",
-    "paper-v1": "db180f786fcfd6de",
-    "quick-v1": "e4d29932f194f801",
-    "robust-v1": "6567574803049f50",
-    "standard-v1": "a8edc787432a253b",
+    "agree-v1": "729c2f27cd982068",
+    "ball-v1": "d8910584b13585aa",
+    "intent-v1": "a0aeec6659923fee",
+    "paper-v1": "8ea792f9a1017b20",
+    "quick-v1": "4f2c15b4ce4d1f34",
+    "robust-v1": "150443b2ae8b4b61",
+    "standard-v1": "ffc0dd46fab2d9c8",
 }
 
 DRAWN = {
