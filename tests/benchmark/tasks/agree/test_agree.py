@@ -32,7 +32,7 @@ from colift.testing import check_suite, check_task
 
 pytestmark = pytest.mark.slow
 
-DIGEST = "a139738ca5010b12"
+DIGEST = "729c2f27cd982068"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
@@ -108,7 +108,8 @@ def test_the_time_to_agree_ends_with_the_last_hurdle():
     heights = np.full(100, 0.15)
     heights[30:50], heights[60:80] = 0.19, 0.11
     first, second = Hurdle(0.19, 20, 90), Hurdle(0.11, 25, 90)
-    assert agreement_ms((first, second), heights, heights) == pytest.approx(600.0)
+    # A stay of which one frame is 40 mm away is within 10 mm on root mean square.
+    assert agreement_ms((first, second), heights, heights) == pytest.approx(590.0)
     assert agreement_ms((first, Hurdle(0.3, 25, 90)), heights, heights) == pytest.approx(700.0)
     assert math.isnan(agreement_ms((None, None), heights, heights))
 
