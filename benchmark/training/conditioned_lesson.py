@@ -9,6 +9,7 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
+import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.control.recurrent import INPUTS, GatedNetwork, Memory, act
 from colift.agents.humans import Subject
@@ -113,10 +114,11 @@ class ConditionedLesson:
 def told_pool(drawn: Sequence[DrawnConditioned], telling: Telling) -> ConditionedPool:
     """Return drawn lifts as arrays, with what a network is told in them."""
     lifts = stack_conditioned(drawn)
-    longest = len(lifts.gain)
-    numbers = [telling.numbers(each.scenario, each.conditions) for each in drawn]
-    rows = [jnp.pad(jnp.asarray(each), ((0, longest - len(each)), (0, 0))) for each in numbers]
-    return ConditionedPool(lifts, jnp.stack(rows, axis=-1))
+    told = np.zeros((len(lifts.gain), telling.size, len(drawn)), np.float32)
+    for index, each in enumerate(drawn):
+        numbers = telling.numbers(each.scenario, each.conditions)
+        told[: len(numbers), :, index] = numbers
+    return ConditionedPool(lifts, jnp.asarray(told))
 
 
 def told_policy(network: GatedNetwork, count: int) -> tuple[Policy, Memory]:
