@@ -272,7 +272,8 @@ def test_failed_hidden_episodes_count_as_worst_and_are_told_in_no_words_of_the_p
 def test_all_that_is_told_of_hidden_episodes_is_this(evaluation):
     hidden = evaluation.row.plain()["hidden"]
     assert set(hidden) == {
-        "episodes", "failed", "failures", "rmse_mm", "vs_human", "better_than_human", "rougher", "real_time"
+        "episodes", "failed", "failures", "rmse_mm", "vs_human", "better_than_human", "rougher",
+        "real_time",
     }  # fmt: skip
     for estimate in (hidden["rmse_mm"], hidden["vs_human"], evaluation.row.plain()["gap"]):
         for value in (estimate["mean"], *(estimate["ci95"] or ())):
