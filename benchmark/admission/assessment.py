@@ -23,9 +23,9 @@ from colift.benchmark.admission.fragility import fragile_verdicts
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.players import HOLD, acts_alone, other_settings, players
 from colift.benchmark.admission.published import NOT_COMPARED, compared
-from colift.benchmark.bounds.causal import CAUSAL_BOUND, CausalBound, has_causal_bound
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
+from colift.benchmark.references.best_known import BestKnown, has_best_known
+from colift.benchmark.results.baselines import BEST_KNOWN, HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from numpy.typing import NDArray
@@ -63,8 +63,8 @@ def cast(suite: Suite) -> dict[str, AgentSpec]:
     found: dict[str, AgentSpec] = {
         text: PolicySpec(text=text) for text in (HOLD, *names, *settings)
     }
-    if has_causal_bound(suite):
-        found[CAUSAL_BOUND] = CausalBound(task=task)
+    if has_best_known(suite):
+        found[BEST_KNOWN] = BestKnown(task=task)
     if has_blind_reference(task):
         found[BLIND] = BlindReference(task=task)
     return found
@@ -109,7 +109,7 @@ def admission_of(
         {HUMAN_HUMAN_LABEL: ScoreTable.of(human_human)}
         | {name: ScoreTable.of(play(spec)) for name, spec in robots.items()}
     )
-    references = tuple(name for name in (CAUSAL_BOUND, BLIND) if name in robots)
+    references = tuple(name for name in (BEST_KNOWN, BLIND) if name in robots)
     evidence = Evidence(
         played=played,
         policies=names,

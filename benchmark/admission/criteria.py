@@ -241,5 +241,5 @@ def _shares_in_words(shares: VarianceShares, policies: int, people: int) -> str:
     return (
         f"policy {shares.policy:.2f}, person {shares.person:.2f}, interaction "
         f"{shares.interaction:.2f}, of {policies} policies and {people} people, without the noise "
-        "of single lifts"
+        f"of single lifts; of what people change alone, interaction {shares.between_people:.2f}"
     )

@@ -13,8 +13,8 @@ from colift.benchmark.admission.assessment import Admission
 from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.jackknife import ratio_interval
 from colift.benchmark.admission.played import Played
-from colift.benchmark.bounds.oracle import ORACLE, oracle_run
-from colift.benchmark.bounds.told import play_told
+from colift.benchmark.references.oracle import ORACLE, oracle_run
+from colift.benchmark.references.told import play_told
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.statistics import FloatArray, Interval
-from colift.benchmark.statistics.student import quantile
+from colift.benchmark.statistics.student import t_quantile
 from numpy.typing import ArrayLike
 
 
@@ -24,11 +24,11 @@ class Spread(NamedTuple):
     """The standard error of a figure, and its degrees of freedom."""
 
     error: float
-    dof: float
+    dof: int
 
     def around(self, figure: float, tail: float = 0.025) -> Interval:
         """Return the interval about a figure that misses with the probability ``tail`` a side."""
-        reach = quantile(tail, self.dof) * self.error
+        reach = t_quantile(1.0 - tail, self.dof) * self.error
         return figure - reach, figure + reach
 
 
@@ -63,10 +63,10 @@ def spread(*left_out: ArrayLike) -> Spread:
     return Spread(math.sqrt(sum(variances)), _joint(variances, dofs))
 
 
-def _joint(variances: Sequence[float], dofs: Sequence[int]) -> float:
-    """Return the degrees of freedom of a sum of variances."""
+def _joint(variances: Sequence[float], dofs: Sequence[int]) -> int:
+    """Return the degrees of freedom of a sum of variances, rounded down."""
     parts = sum(variance**2 / dof for variance, dof in zip(variances, dofs, strict=True))
-    return float(sum(variances) ** 2 / parts) if parts > 0 else float(min(dofs))
+    return int(sum(variances) ** 2 / parts + 1e-9) if parts > 0 else min(dofs)
 
 
 def ratio_interval(ratio: float, left_out: ArrayLike, tail: float = 0.025) -> Interval:

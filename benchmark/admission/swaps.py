@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from colift.benchmark.admission.played import Played
 from colift.benchmark.statistics import FloatArray, Interval, holm_correction
-from colift.benchmark.statistics.student import quantile, survival
+from colift.benchmark.statistics.student import t_cdf, t_quantile
 from numpy.typing import NDArray
 
 FAMILY: Final = 0.05
@@ -50,12 +50,12 @@ def swaps(played: Played) -> list[Swap]:
     Half of a person's lifts choose the better policy of a pair for this person, the other half
     tests the choice, and then the halves change places. Where one policy is at least as good with
     everybody, a choice of the other is chance, and the lifts that test it show no lead. A lead is
-    the mean logarithm of the ratio of the errors over all tests of a choice, with the jackknife's
-    standard error over people. A swap needs both leads, so that its p value is the larger one of
-    two one-sided tests; the p values of all pairs are corrected together by Holm's method.
+    the mean logarithm of the ratio of the mean errors over all tests of a choice, with the
+    jackknife's standard error over people. A swap needs both leads, so that its p value is the
+    larger one of two one-sided tests; the p values of all pairs are corrected together by Holm's
+    method.
     """
-    logs = np.log(played.errors)
-    first, second = logs[..., 0::2].mean(axis=-1), logs[..., 1::2].mean(axis=-1)
+    first, second = (np.log(played.errors[..., half::2].mean(axis=-1)) for half in (0, 1))
     one, other = np.triu_indices(len(played.players), 1)
     early, late = first[one] - first[other], second[one] - second[other]
     tail = FAMILY / len(one)
@@ -107,9 +107,9 @@ def _tested(first: FloatArray, second: FloatArray, tail: float) -> _Tested:
     spread = np.where(chosen > 0, without - mean[:, np.newaxis], 0.0)
     error = np.sqrt(np.maximum(people - 1, 0) / np.maximum(people, 1) * (spread**2).sum(axis=1))
     known = (people >= 2) & (error > 0)
-    reach = np.array([quantile(tail, max(number - 1, 1)) for number in people.tolist()])
+    reach = np.array([t_quantile(1.0 - tail, max(number - 1, 1)) for number in people.tolist()])
     p = [
-        survival(lead / wide, number - 1) if tested else 1.0
+        max(1.0 - t_cdf(lead / wide, number - 1), 0.0) if tested else 1.0
         for lead, wide, number, tested in zip(
             mean.tolist(), error.tolist(), people.tolist(), known.tolist(), strict=True
         )

@@ -23,6 +23,12 @@ class VarianceShares:
     variance: float
     """The variance of the interaction itself, of logarithms."""
 
+    @property
+    def between_people(self) -> float:
+        """Share of the interaction in what people change, whatever the policies' means."""
+        person, suits = max(self.person, 0.0), max(self.interaction, 0.0)
+        return suits / (person + suits) if suits else 0.0
+
 
 def variance_shares(errors: ArrayLike) -> VarianceShares:
     r"""Return the shares of an analysis of variance with the noise of single lifts removed.

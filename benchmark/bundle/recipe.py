@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 from colift.agents.humans import Behaviour, Recorded, load_recordings
-from colift.agents.humans.recordings import COLUMNS
+from colift.agents.humans.recordings import COLUMNS, PERSON
 from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
 from colift.benchmark.bundle.files import INPUTS, MANIFEST, RECORDINGS
@@ -272,10 +272,12 @@ def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
         return None
     text = io.StringIO()
     writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    known = any(recording.person for recording in recordings.values())
+    writer.writerow((*COLUMNS, PERSON) if known else COLUMNS)
     for name, recording in recordings.items():
+        person = (recording.person,) if known else ()
         for time, height in zip(recording.times, recording.heights, strict=True):
-            writer.writerow((name, time, height))
+            writer.writerow((name, time, height, *person))
     return text.getvalue().encode(errors="replace")
 
 

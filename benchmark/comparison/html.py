@@ -24,7 +24,7 @@ def html_page(comparison: Comparison) -> str:
     If each behaviour has one subject of its own, both tables would have the same numbers.
     """
     kinds = [("behaviour", comparison.behaviours)]
-    if not comparison.one_each:
+    if comparison.subjects and not comparison.one_each:
         kinds.append(("subject", comparison.subjects))
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
@@ -72,17 +72,17 @@ def html_page(comparison: Comparison) -> str:
 def _ranks(comparison: Comparison) -> list[Row]:
     by_name = {policy.name: policy for policy in comparison.results.policies}
     rows = [_policy_row(comparison, s, by_name[s.name]) for s in comparison.overall.policies]
-    rows += [_baseline_row(comparison, name) for name in comparison.results.references]
+    rows += [_baseline_row(comparison, name) for name in comparison.results.unranked]
     return rows
 
 
 def _baseline_row(comparison: Comparison, name: str) -> Row:
-    baseline, overall = comparison.results.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+    baseline, overall = comparison.results.unranked[name], comparison.overall
+    rmse = overall.unranked_rmse_mm[name]
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
-        Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
+        Cell(f"{overall.unranked_vs_human[name].mean:.2g}"),
         *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.results.metrics),
         Cell(""),
     ]
@@ -137,8 +137,8 @@ def _parts(comparison: Comparison, rankings: Sequence[Ranking]) -> list[Row]:
             for ranking, column in zip(rankings, columns, strict=True)
         ]
         rows.append(Row(ranked.name, parts))
-    for name in rankings[0].references_rmse_mm:
-        means = [ranking.references_rmse_mm[name] for ranking in rankings]
+    for name in rankings[0].unranked_rmse_mm:
+        means = [ranking.unranked_rmse_mm[name] for ranking in rankings]
         errors = [_estimate(mean, digits(mean.mean)) for mean in means]
         rows.append(Row(name, errors, kind="baseline"))
     return rows

@@ -61,7 +61,7 @@ class Lift:
         self.visual, self.haptic = _delays(scenario.subject)
         far = (0, 0) if seat.person is None else _delays(seat.person)
         self.partner_visual, self.partner_haptic = far
-        self._person = scenario.person
+        self._person = scenario.rules
         self._make = world or self.task.world
         self.bodies: Bodies | None = None
         """What the world is made of; None if there is none yet: with conditions, before a reset."""

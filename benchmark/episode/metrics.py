@@ -68,6 +68,30 @@ def rmse_mm(human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None =
     return math.sqrt(squares / (error.size + missing))
 
 
+def rmse_about_mean_mm(
+    human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None = None
+) -> float:
+    r"""Return the root mean square of the height difference about its mean over the trial.
+
+    .. math:: \sqrt{\tfrac{1}{H} \sum_t (d_t - \bar d)^2}, \quad d_t = Z_{1t} - Z_{2t}
+
+    What remains of :func:`rmse_mm` without a constant tilt: the squared RMSE is the square of this
+    plus that of the mean difference. Real pairs keep such a tilt for whole lifts.
+
+    Parameters and errors are those of :func:`rmse_mm`; a missing frame counts with
+    ``FAILED_FRAME_MM`` and is not part of the mean.
+
+    Returns
+    -------
+    float
+        Error [mm].
+    """
+    error, missing = _error_mm(human_end, robot_end, horizon)
+    about = error - dot(error, np.ones_like(error)) / max(1, error.size)
+    squares = float(dot(about, about)) + missing * FAILED_FRAME_MM**2
+    return math.sqrt(squares / (about.size + missing))
+
+
 def abs_error_mm(
     human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None = None
 ) -> float:

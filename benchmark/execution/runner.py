@@ -1,6 +1,6 @@
 """The run of a policy on a suite, in this process or on any executor."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
@@ -53,6 +53,24 @@ def placed(policy: AgentSpec, executor: Executor | None) -> AgentSpec:
         If there is no such policy, or its files are larger than a submission may be.
     """
     return policy if getattr(executor, "shares_files", True) else packaged(policy)
+
+
+def finished(
+    policy: AgentSpec,
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Iterator[tuple[int, Episode]]:
+    """Yield the place of each episode, and the episode, as it is finished; none is kept.
+
+    Arguments and errors are those of :func:`run_suite`.
+    """
+    policy = placed(policy, executor)
+    policy.check()
+    for index, episode in run_batches(batches(policy, suite, {}, None), executor, Faults()):
+        yield index, episode
+        progress(1)
 
 
 def run_suite(

@@ -11,7 +11,7 @@ from colift.benchmark.episode.metric import LEADING, reached
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.strata import plain_means
-from colift.benchmark.statistics import Estimate, MeanWithMissing, interquartile_mean
+from colift.benchmark.statistics import Estimate, Interval, MeanWithMissing, interquartile_mean
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +49,8 @@ class Summary:
     rmse_mm_iqm: float
     """Interquartile mean of the RMSE [mm]."""
     vs_human: Estimate | None
-    """Mean RMSE divided by that of the human-human baseline; None without this baseline."""
+    """RMSE divided by that of the human-human baseline, geometric mean over the lifts; None without
+    this baseline."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics by name."""
     step_ms: StepTimes
@@ -65,7 +66,7 @@ class Summary:
             "rmse_mm": {
                 "mean": self.rmse_mm.mean,
                 "iqm": self.rmse_mm_iqm,
-                "ci95": list(self.rmse_mm.ci95),
+                "ci95": plain_interval(self.rmse_mm.ci95),
             },
             "vs_human": None if self.vs_human is None else plain_estimate(self.vs_human),
             **plain_means(self.metrics),
@@ -76,13 +77,18 @@ class Summary:
 
 def plain_estimate(estimate: Estimate) -> dict[str, Any]:
     """Return an estimate, ready for JSON."""
-    return {"mean": estimate.mean, "ci95": list(estimate.ci95)}
+    return {"mean": estimate.mean, "ci95": plain_interval(estimate.ci95)}
+
+
+def plain_interval(ci95: Interval | None) -> list[float] | None:
+    """Return an interval, ready for JSON; None where there is none."""
+    return None if ci95 is None else list(ci95)
 
 
 def summarise(run: Run, scores: ScoreTable, human_human: ScoreTable | None = None) -> Summary:
     """Return the summary of a policy's run.
 
-    The interval of ``rmse_mm`` is by bootstrap over the episodes within each stratum. The other
+    Intervals are between people, each with all of their lifts. The other
     metrics have the mean over the episodes with a value and the number of those without one
     (``missing``): a policy that does not move has no smoothness, and ranks last by it.
 
@@ -91,10 +97,10 @@ def summarise(run: Run, scores: ScoreTable, human_human: ScoreTable | None = Non
     run, scores
         The run and its scores.
     human_human
-        The human-human baseline on the same episodes. With it, ``vs_human`` is the ratio of the
-        means of the RMSE, with the 95 % interval of a bootstrap that pairs the episodes: 1 is as
-        good as a human partner, less is better. Without it, or if only a part of the episodes has
-        been played, ``vs_human`` is None.
+        The human-human baseline on the same episodes. With it, ``vs_human`` is the geometric mean
+        of the ratio of the two RMSE, lift by lift, with its 95 % interval: 1 is as good as a human
+        partner, less is better. Without it, or if only a part of the episodes has been played,
+        ``vs_human`` is None.
     """
     return Summary(
         episodes=len(run.episodes),

@@ -1,76 +1,47 @@
-"""Student's t distribution, for intervals and tests from few people."""
+"""Student's t distribution, exact for whole degrees of freedom.
 
+References
+----------
+M. Abramowitz, I. A. Stegun (1964). Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
+"""
+
+import functools
 import math
-from functools import cache
 from typing import Final
 
-from colift.base.errors import InputError
-
-TINY: Final = 1e-300
-"""Smallest denominator of the continued fraction."""
-
-TERMS: Final = 400
-"""Most terms of it; some dozens are enough."""
+LARGEST: Final = 2.0**60
+"""Quantiles are searched up to this value."""
 
 
-def survival(t: float, dof: float) -> float:
-    r"""Return the probability that Student's t exceeds ``t``.
+def t_cdf(t: float, freedom: int) -> float:
+    r"""Return the probability that Student's t is at most ``t``.
 
-    .. math:: P(T > t) = \tfrac12 I_x(\nu / 2, 1 / 2), \quad x = \nu / (\nu + t^2), \quad t \ge 0
-
-    Raises
-    ------
-    InputError
-        If there is no positive number of degrees of freedom.
+    With :math:`\theta = \arctan(t / \sqrt{\nu})`, the probability of a value between -t and t is a
+    finite series in :math:`\cos^2 \theta`, one for odd and one for even degrees of freedom
+    :math:`\nu \ge 1`.
     """
-    if not dof > 0:
-        raise InputError(f"degrees of freedom must be positive, got {dof}")
-    half = 0.5 * _beta_share(dof / (dof + t * t), dof / 2, 0.5)
-    return half if t >= 0 else 1.0 - half
+    theta = math.atan2(t, math.sqrt(freedom))
+    cos2 = freedom / (freedom + t * t)
+    odd = freedom % 2
+    term, total = (math.cos(theta) if odd else 1.0), 0.0
+    for i in range(freedom // 2):
+        total += term
+        term *= cos2 * (2 * i + 1 + odd) / (2 * i + 2 + odd)
+    inside = total * math.sin(theta)
+    if odd:
+        inside = 2.0 / math.pi * (theta + inside)
+    return 0.5 + 0.5 * inside
 
 
-@cache
-def quantile(tail: float, dof: float) -> float:
-    """Return the t that Student's t exceeds with the probability ``tail``, of at most 0.5.
-
-    Raises
-    ------
-    InputError
-        If the probability is not in (0, 0.5], or as :func:`survival`.
-    """
-    if not 0 < tail <= 0.5:
-        raise InputError(f"the tail must be above 0 and at most 0.5, got {tail}")
+@functools.lru_cache(maxsize=1024)
+def t_quantile(p: float, freedom: int) -> float:
+    """Return the value that Student's t exceeds with probability 1 - p, for 0 < p < 1."""
+    if p < 0.5:
+        return -t_quantile(1.0 - p, freedom)
     low, high = 0.0, 1.0
-    while survival(high, dof) > tail:
-        high *= 2
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if survival(middle, dof) > tail else (low, middle)
-    return (low + high) / 2
-
-
-def _beta_share(x: float, a: float, b: float) -> float:
-    """Return the regularised incomplete beta function (Abramowitz & Stegun 26.5.8)."""
-    if x <= 0.0 or x >= 1.0:
-        return min(max(x, 0.0), 1.0)
-    if x > (a + 1) / (a + b + 2):
-        return 1.0 - _beta_share(1.0 - x, b, a)
-    scale = math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b)
-    front = math.exp(scale + a * math.log(x) + b * math.log1p(-x)) / a
-    c, d = 1.0, 1.0 / _away(1.0 - (a + b) * x / (a + 1))
-    fraction = d
-    for m in range(1, TERMS):
-        for factor in (
-            m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m)),
-            -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1)),
-        ):
-            c, d = _away(1.0 + factor / c), 1.0 / _away(1.0 + factor * d)
-            fraction *= c * d
-        if abs(c * d - 1.0) < 1e-15:
-            break
-    return front * fraction
-
-
-def _away(value: float) -> float:
-    """Return a number that can be divided by."""
-    return value if abs(value) > TINY else TINY
+    while t_cdf(high, freedom) < p and high < LARGEST:
+        low, high = high, 2.0 * high
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if t_cdf(middle, freedom) < p else (low, middle)
+    return 0.5 * (low + high)

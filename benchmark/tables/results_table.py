@@ -10,7 +10,12 @@ from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
-from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    spread_over_people,
+)
 from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
@@ -35,6 +40,11 @@ TIMES: Final = {
 PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
 """Meaning of the column beside the RMSE."""
 
+QUARTILES: Final = "quartiles"
+
+SPREAD: Final = "quartiles: of the means of each person."
+"""Meaning of the next column."""
+
 
 def results_table(content: Results, metrics: Metrics) -> Table:
     """Return the table of a result: one row per behaviour, and the mean over all."""
@@ -44,7 +54,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     return table(
         f"{content.policy} on {content.suite}{_over(content)}",
-        ("human", "RMSE mm", people, *(metric.heading for metric in shown)),
+        ("human", "RMSE mm", people, QUARTILES, *(metric.heading for metric in shown)),
         [
             *(
                 (name, *_row([each for each in strata if each.behaviour == name], shown))
@@ -54,7 +64,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             styled(("all", *_row(strata, shown)), "bold"),
         ],
         caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
-        f"suite digest {content.suite_digest}. {PEOPLE} {notes(shown)}",
+        f"suite digest {content.suite_digest}. {PEOPLE} {SPREAD} {notes(shown)}",
     )
 
 
@@ -98,7 +108,9 @@ def _row(strata: Sequence[StratumScore], shown: Sequence[Metric]) -> list[str]:
     """Return the cells of a row: the means over the episodes of some strata."""
     errors = (mean_of_strata(strata).mean, human_human_mean(strata))
     means = (metric.text(mean_of_strata(strata, metric.name).mean) for metric in shown)
-    return [*(optional_number(error, ".1f") for error in errors), *means]
+    spread = spread_over_people(strata)
+    quartiles = f"{spread.lower:.1f} to {spread.upper:.1f}" if spread.people > 1 else ""
+    return [*(optional_number(error, ".1f") for error in errors), quartiles, *means]
 
 
 def timing_table(report: dict[str, Any]) -> Table:

@@ -90,7 +90,7 @@ def check_conditioned(scenario: Scenario) -> None:
     if scenario.partner != "nao":
         raise InputError(f"conditions are modelled for a NAO, not for {scenario.partner!r}")
     check_scripted(scenario)
-    if scenario.person not in (FOLLOWS_PLAN, SLOWS_DOWN):
+    if scenario.rules not in (FOLLOWS_PLAN, SLOWS_DOWN):
         raise InputError(
             f"the twin models people who go along with their plan, and who slow down; those of "
             f"{scenario.behaviour!r} have other rules"
@@ -126,8 +126,8 @@ def draw_conditioned(
     drawn = given.draw(role_seed, steps, size)
     errors = drawn_errors((), False, role_seed, steps, size, drawn.ages, drawn.noise)
     noise = drawn_noise(person, role_seed("human"), steps * size)
-    _, manner = scenario.person.draw(person, role_seed, steps, size)
-    slows = scenario.person is SLOWS_DOWN
+    _, manner = scenario.rules.draw(person, role_seed, steps, size)
+    slows = scenario.rules is SLOWS_DOWN
     kept = steps if longest is None else min(steps, round(longest / scenario.control_period))
     return DrawnConditioned(
         scenario,

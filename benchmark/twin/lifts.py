@@ -9,8 +9,7 @@ import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import Embodied
 from colift.agents.humans.following import FOLLOWS_PLAN
-from colift.agents.humans.hand import HandMemory, NoiseStream, move_hand
-from colift.agents.rules import SCALARS
+from colift.agents.humans.hand import performed
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import Scenario
@@ -69,7 +68,7 @@ def check_modelled(scenario: Scenario) -> None:
     if scenario.partner not in MODELLED:
         known = " and ".join(map(repr, MODELLED))
         raise InputError(f"the twin models the partners {known}, not {scenario.partner!r}")
-    if scenario.conditions is not None or scenario.person is not FOLLOWS_PLAN:
+    if scenario.conditions is not None or scenario.rules is not FOLLOWS_PLAN:
         raise InputError(
             f"{scenario.name} has conditions, or people who do not just follow their plan: it "
             "needs the twin with conditions"
@@ -141,12 +140,10 @@ def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
     rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
     noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + len(target)))
     sampled = size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
-    stream = NoiseStream(scenario.subject, derive_seed(seed, f"human/{name}"))
-    hand, moved = HandMemory(0.0, 0.0, 0.0), stream.between(0, len(target))
-    _, references = move_hand(SCALARS, hand, 0.0, target.tolist(), moved)
+    hand = performed(scenario.subject, target, derive_seed(seed, f"human/{name}"))
     return DrawnLift(
         scenario,
-        np.array(references).reshape(steps, size),
+        hand.reshape(steps, size),
         target.reshape(steps, size),
         noise[:, sampled].T,
     )

@@ -27,6 +27,7 @@ LICENCE: Final = "MIT"
 LEARNED: Final[Mapping[str, str]] = {
     "anticipate": "anticipate",
     "blend": "reactive",
+    "linear": "linear",
     "reactive": "reactive",
     "task_model": "task_model",
 }

@@ -124,13 +124,14 @@ def test_a_terminal_that_vanishes_ends_like_the_stop_button(emulate, controlling
     )
     os.close(slave)
     try:
-        told = ""
+        told, end = "", time.monotonic() + 120
         while "lift 1 seed 0" not in laboratory.lines:
             told += read(master)
             if told.count("Enter when ready") > told.count("\0"):
                 told += "\0"
                 os.write(master, b"\n")
             assert process.poll() is None, told
+            assert time.monotonic() < end, told
         time.sleep(1.4)
         os.close(master)
         assert released(laboratory, SLACK)

@@ -43,11 +43,11 @@ MANNERS: Final[Mapping[str, AgreeingManner[float]]] = {
     "S5": AgreeingManner(patience=0.1, trust=1.0, stiffness=1.0, insistence=1.0),
     SECOND_PERSON.name: AgreeingManner(patience=0.2, trust=1.0, stiffness=0.9, insistence=0.2),
 }
-"""The manners of the five subjects, spread over the ranges, and of the second human."""
+"""The manners of the stress people, placed at the ends of the ranges, and of the second human."""
 
 
 def agreeing_manner(subject: Subject) -> AgreeingManner[float]:
-    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
+    """Return a person's manner: for stress people as stated, for others drawn by name."""
     if subject.name in MANNERS:
         return MANNERS[subject.name]
     return AgreeingManner(**drawn_traits(TRAITS, subject, 0xA62EE))

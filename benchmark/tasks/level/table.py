@@ -35,6 +35,15 @@ LEVEL_METRICS: Final = metric_table(
             ),
         ),
         Metric(
+            name="rmse_about_mean_mm",
+            symbol="about mean",
+            label="RMSE about the mean",
+            unit="mm",
+            missing="never",
+            meaning="the same about the lift's mean of Z1 - Z2: what remains of RMSE without a "
+            "constant tilt, which real pairs keep",
+        ),
+        Metric(
             name="abs_error_mm",
             symbol="error",
             label="Absolute error",

@@ -143,6 +143,7 @@ class Level:
         nan, empty = math.nan, len(human) == 0
         return {
             "rmse_mm": metrics.rmse_mm(human, robot, horizon=over),
+            "rmse_about_mean_mm": metrics.rmse_about_mean_mm(human, robot, horizon=over),
             "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=over),
             "max_tilt_deg": nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
             "sparc": nan if failed else smoothness(metric=sparc),

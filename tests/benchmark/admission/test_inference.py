@@ -8,11 +8,11 @@ from colift.agents.control.recurrent import INPUTS, GatedNetwork, read_gated, sh
 from colift.agents.control.recurrent_controller import RecurrentController
 from colift.base.errors import InputError
 from colift.benchmark.admission.inference import inference_of, needs_inference
-from colift.benchmark.bounds.catalogue import suite_bounds
-from colift.benchmark.bounds.told import ToldController, play_told, told_run
 from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
+from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.references.told import ToldController, play_told, told_run
 from colift.benchmark.suites.people import people_suite
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.robust.suites import CONDITIONS
@@ -125,6 +125,6 @@ def test_nobody_can_be_told_what_is_not_drawn():
     with pytest.raises(InputError, match="no conditions"):
         play_told(network(), make_suite("quick-v1"))
     narrow = people_suite("narrow", "level", ("dip",), PEOPLE, conditions=Conditions())
-    assert "told" not in suite_bounds(narrow)
+    assert "told" not in suite_references(narrow)
     with pytest.raises(InputError, match="no reference was told"):
         told_run(narrow)

@@ -9,6 +9,7 @@ from colift.benchmark.episode.metrics import (
     human_force_n,
     human_work_j,
     max_tilt_deg,
+    rmse_about_mean_mm,
     rmse_mm,
     robot_lag_ms,
     stroke_smoothness,
@@ -42,6 +43,16 @@ class TestErrors:
 
     def test_absolute_error_sums_over_frames_without_cancelling(self) -> None:
         assert abs_error_mm([0.010, 0.0, 0.020], [0.0, 0.010, 0.015]) == pytest.approx(25.0)
+
+    def test_about_the_mean_a_constant_tilt_is_no_error(self) -> None:
+        level = lift_and_lower()
+        assert rmse_about_mean_mm(level, level + 0.012) == pytest.approx(0.0, abs=1e-9)
+        assert rmse_about_mean_mm(np.zeros(2), np.array([0.002, 0.006])) == pytest.approx(2.0)
+        tilted = lift_and_lower(0.2) + 0.005
+        mean = 1000 * float(np.mean(level - tilted))
+        whole = math.hypot(rmse_about_mean_mm(level, tilted), mean)
+        assert whole == pytest.approx(rmse_mm(level, tilted))
+        assert rmse_about_mean_mm(np.zeros(3), np.ones(3), horizon=4) == pytest.approx(125.0)
 
     def test_frames_cut_off_by_a_failure_count_250_mm(self) -> None:
         assert FAILED_FRAME_MM == 250.0

@@ -34,13 +34,14 @@ def whole():
     return list(apg.updates(TINY, 0))
 
 
+@pytest.mark.parametrize("alone", [False, True])
 @pytest.mark.parametrize("task", WITH_RULES)
-def test_the_network_acts_the_same_in_numpy(task):
+def test_the_network_acts_the_same_in_numpy(task, alone):
     senses = make_task(task).senses
     made = first_network(inputs_of(senses), 3, 0)
     plain = GatedNetwork(*(np.asarray(array, np.float64) for array in made))
-    learned = TouchNetwork(task, senses, plain)
-    policy, many = touch_policy(TouchNetwork(task, senses, made), 1)
+    learned = TouchNetwork(task, senses, plain, alone)
+    policy, many = touch_policy(TouchNetwork(task, senses, made, alone), 1)
     memory, rng = touch_at_rest(learned), np.random.default_rng(0)
     for _ in range(5):
         view = 0.1 + 0.01 * rng.standard_normal(learned.expected)

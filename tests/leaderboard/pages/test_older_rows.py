@@ -63,8 +63,8 @@ def test_every_page_and_file_shows_the_row_without_the_newer_metric(folder, newe
         for page in (
             f"/seasons/2026/policies/{copy}",
             f"/seasons/2026/compare?p={copy}&p={blend}",
-            "/seasons/2026/scenarios",
-            "/seasons/2026/scenarios/pause/S2",
+            "/seasons/2026/behaviours",
+            "/seasons/2026/behaviours/pause",
             "/seasons/2026/feed.atom",
             "/method",
         ):

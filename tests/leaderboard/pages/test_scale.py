@@ -116,7 +116,7 @@ def test_a_search_is_over_all_rows(board):
     view = board_page(board, None, Asked.read(q=" Policy-09 lovelace "))
     assert view["lines"].count == 100
     assert view["rows"][0].standing.row.name == "policy-0900"
-    assert view["rows"][0].standing.group == 901
+    assert view["rows"][0].standing.rank == 901
     assert board_page(board, None, Asked.read(q="nobody"))["rows"] == ()
 
 

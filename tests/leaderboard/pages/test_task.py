@@ -92,8 +92,8 @@ def test_the_method_of_another_task_is_about_that_task(pages, suite):
     assert questions.strip().startswith("These questions are about the suites of colift in which")
 
 
-def test_bounds_that_are_not_known_are_not_explained(pages):
+def test_references_that_are_not_known_are_not_explained(pages):
     (method,) = pages("tiny", "/method")
     assert "oracle" not in method
-    assert "causal bound" not in method
+    assert "best known policy" not in method
     assert "Rank group" in method

@@ -17,6 +17,14 @@ from .uploaded import MANY, SUBMIT, left_over
 pytestmark = pytest.mark.usefixtures("nothing_is_left")
 
 
+def answered(connection):
+    """Return an answer up to the end of its object, or to the end of the connection."""
+    answer = b""
+    while b"}" not in answer and (more := connection.recv(65536)):
+        answer += more
+    return answer
+
+
 def test_a_body_that_says_it_is_too_large_is_refused_unread(url, ada):
     """As curl sends it: it waits for the permission to go on."""
     host, port = url.removeprefix("http://").split(":")
@@ -26,9 +34,7 @@ def test_a_body_that_says_it_is_too_large_is_refused_unread(url, ada):
             f"POST {SUBMIT} HTTP/1.1\r\nHost: x\r\n{head}Content-Length: {MANY}\r\n"
             "Expect: 100-continue\r\n\r\n".encode()
         )
-        answer = b""
-        while b"}" not in answer:
-            answer += connection.recv(65536)
+        answer = answered(connection)
     assert answer.startswith(b"HTTP/1.1 413 ")
     assert b"a zip archive may have at most 64 MiB" in answer
 
@@ -49,9 +55,7 @@ def test_a_body_without_end_is_refused_early_and_not_kept(url, folder, ada):
             sent += 2**20
             used = [path.stat().st_size for path in folder.glob(f"submissions/{PREFIX}*/*")]
             most = max(most, *used, 0)
-        answer = connection.recv(65536)
-        while b"}" not in answer:
-            answer += connection.recv(65536)
+        answer = answered(connection)
     assert answer.startswith(b"HTTP/1.1 413 ")
     assert answer.endswith(b'{"error":"a zip archive may have at most 64 MiB"}')
     assert BODY < sent < 2 * BODY

@@ -155,6 +155,7 @@ async def browsing(executable: str) -> AsyncIterator[Browser]:
             line = b""
             while b"ws://" not in line:
                 line = await process.stderr.readline()
+                assert line, "the browser has ended"
             draining = asyncio.ensure_future(process.stderr.read())
             place = line.decode().split()[-1]
             async with connect(place, compression=None, max_size=None, max_queue=None) as socket:

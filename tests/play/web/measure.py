@@ -303,6 +303,7 @@ def main(what, lifts):
             line = ""
             while "http" not in line:
                 line = server.stdout.readline()
+                assert line, "the server has ended"
             url = re.search(r"http://\S+", line).group().rstrip("/,.") + "/"
             asyncio.run(KINDS[what](url, out, lifts))
         finally:

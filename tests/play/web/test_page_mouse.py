@@ -61,6 +61,7 @@ async def lifted(url: str) -> tuple[Hand, list[float]]:
         hand = Hand(page)
         await page.goto(url)
         await page.locator('input[name="partner"][value="copy"]').check()
+        await page.get_by_label("I agree").check()
         await page.get_by_role("button", name="To the table").click()
         button = page.get_by_role("button", name="Lift", exact=True)
         await expect(button).to_be_visible(timeout=WAIT_MS)
