@@ -14,7 +14,7 @@ from colift.base.errors import InputError
 from colift.base.registry import POLICIES, check_plays, entries, playing
 from colift.benchmark.bundle import is_bundle
 from colift.benchmark.channels import Channel
-from colift.benchmark.comparison.captions import failures, goals, unit_warnings, verdict
+from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
 from colift.benchmark.comparison.files import comparison_json
@@ -202,4 +202,9 @@ def _show(comparison: Comparison) -> None:
     show(ranks_table(comparison), differences_table(comparison))
     if len(comparison.behaviours) > 1:
         show(behaviours_table(comparison))
-    show(verdict(comparison), *goals(comparison), *unit_warnings(comparison))
+    show(
+        verdict(comparison),
+        *roughness(comparison),
+        *goals(comparison),
+        *unit_warnings(comparison),
+    )

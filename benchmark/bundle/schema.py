@@ -68,6 +68,10 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
             "description": "RMSE divided by that of the human-human baseline on the same lift: "
             "geometric mean over the lifts.",
         },
+        "rougher": _of(
+            {"type": ["array", "null"], "items": TEXT},
+            "Metrics by which the policy is rougher than two people; null if that is not known.",
+        ),
         **{name: mean for name, mean in means.items() if name != LEADING},
         "step_ms": _object(
             {"p50": NUMBER_OR_NULL, "p99": NUMBER_OR_NULL},

@@ -9,6 +9,7 @@ from colift.benchmark.comparison.ranking import Ranking
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.goals import goal_scores
+from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 
 SURE: Final = 0.975
@@ -130,6 +131,14 @@ def failures(comparison: Comparison) -> list[str]:
                 f"as worst; first reason: {reasons[0]}"
             )
     return sentences
+
+
+def roughness(comparison: Comparison) -> list[str]:
+    """Return the meaning of the mark, and by which metrics each marked policy is rougher."""
+    marked = [ranked for ranked in comparison.overall.policies if ranked.rougher]
+    metrics = comparison.results.suite.metrics
+    by = (f"{ranked.name} by {by_which(ranked.rougher or (), metrics)}" for ranked in marked)
+    return [f"{MEANING} {'; '.join(by)}."] if marked else []
 
 
 def goals(comparison: Comparison) -> list[str]:

@@ -74,6 +74,7 @@ def _policy(ranked: RankedPolicy) -> dict[str, Any]:
         "rmse_mm": dataclasses.asdict(ranked.rmse_mm),
         "vs_human": dataclasses.asdict(ranked.vs_human),
         "better_than_human": ranked.better_than_human,
+        "rougher": None if ranked.rougher is None else list(ranked.rougher),
         "clipped": ranked.clipped,
         "to_best": None if to_best is None else dataclasses.asdict(to_best),
         **{
@@ -133,6 +134,7 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
     yield "to_best_p", behind.p if behind else None
     yield "to_best_share_better", behind.share_better if behind else None
     yield "better_than_human", ranked.better_than_human
+    yield "rougher", None if ranked.rougher is None else " ".join(ranked.rougher)
     yield from ((f"{name}_missing", ranked.scores.metric(name).missing) for name in ranked.metrics)
     yield "clipped", ranked.clipped
 

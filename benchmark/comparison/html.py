@@ -13,6 +13,7 @@ from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, make_scene
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.rendering.page import Cell, Row, render
+from colift.benchmark.results.roughness import ROUGHER
 from colift.benchmark.statistics import Estimate
 
 AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better than humans)")
@@ -39,6 +40,7 @@ def html_page(comparison: Comparison) -> str:
         warnings=(
             *captions.goals(comparison),
             *captions.failures(comparison),
+            *captions.roughness(comparison),
             *captions.unit_warnings(comparison),
         ),
         pictures=[
@@ -95,13 +97,18 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy, policy: PolicyResu
     return Row(
         ranked.name,
         [
-            Cell(str(ranked.rank) if overall.decisive else "", best=overall.best(ranked)),
+            _rank(overall, ranked),
             _estimate(ranked.rmse_mm, ".2f"),
             _estimate(ranked.vs_human, ".2f"),
             *(_metric(metric, ranked) for metric in metrics),
             Cell("none") if steps.p50 is None else Cell(f"{steps.p50:.3f}", f"{steps.p99:.3f}"),
         ],
     )
+
+
+def _rank(overall: Ranking, ranked: RankedPolicy) -> Cell:
+    rank = str(ranked.rank) if overall.decisive else ""
+    return Cell(rank, ROUGHER if ranked.rougher else "", best=overall.best(ranked))
 
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> Cell:

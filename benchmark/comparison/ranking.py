@@ -6,6 +6,7 @@ from typing import Literal
 
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import (
     Estimate,
@@ -33,6 +34,8 @@ class RankedPolicy:
     partner."""
     better_than_human: float | None
     """Probability that ``vs_human`` is below 1 with other people; None with a single person."""
+    rougher: tuple[str, ...] | None
+    """Metrics by which it is rougher than two people; None if that is not known."""
     metrics: Mapping[str, Estimate | None]
     """The other metrics that boards show, over the lifts that have a value; None if none has."""
     to_best: PairedDifference | None
@@ -117,6 +120,7 @@ def rank_policies(
                 rmse_mm=scores.error,
                 vs_human=scores.against(human_human).ratio,
                 better_than_human=scores.against(human_human).probability,
+                rougher=rougher(scores, human_human, results.suite.metrics),
                 metrics={each.name: scores.estimate(each.name) for each in results.metrics},
                 to_best=_to_best(tables, family, name),
                 same_as_best=not family.apart(name, family.names[0]),

@@ -42,14 +42,26 @@ class Playing(Protocol):
     """The robot's hand command [m]."""
     visual: int
     """The human's visual delay in frames."""
+    haptic: int
+    """The human's haptic delay in frames."""
     partner_visual: int
     """That of a second human."""
     due: Any
     """The task's series, arrays (horizon,)."""
     facts: Any
     """The task's numbers."""
+    drawn: Drawn[float]
+    """Plan, series and numbers, as rules read them."""
     intention: Any
     """The person's intention in the coming step; see :meth:`.Person.intend`."""
+
+    @property
+    def latency(self) -> int:
+        """Age of the motion capture's sample in frames."""
+
+    @property
+    def hand(self) -> float:
+        """Height of the hands at the far end by their encoders [m]."""
 
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""

@@ -1,6 +1,7 @@
 """The score table: an agent's scores, metric by metric and lift by lift."""
 
 import functools
+import math
 from array import array
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -9,7 +10,7 @@ from typing import Any, NamedTuple, Self
 import msgspec
 import numpy as np
 from colift.benchmark.episode.loop import Episode
-from colift.benchmark.episode.metric import LEADING, on_boards
+from colift.benchmark.episode.metric import LEADING, gentle, on_boards
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.statistics import (
     Estimate,
@@ -48,12 +49,15 @@ class ScoreTable:
     """The person of each lift, where it is not the subject: see :attr:`.Scenario.person`."""
     values: Mapping[str, Sequence[float]] = field(hash=False)
     """Value of each metric in each lift, NaN where there is none. A stored table has the leading
-    metric alone."""
+    metric, and those of :attr:`gentle`."""
     means: Mapping[str, float | None] = field(default_factory=dict, hash=False)
     """Means of the other metrics that boards show; None where no lift has a value. A part of a
     table has none."""
     failures: tuple[str | None, ...] = ()
     """Reason of each failure; None for a lift that did not fail. A stored table has none."""
+    gentle: tuple[str, ...] = ()
+    """Metrics that show how gentle the agent is, by which others are compared with it; a table that
+    was stored before there were such metrics has none."""
 
     @classmethod
     def of(cls, run: Run) -> Self:
@@ -85,6 +89,7 @@ class ScoreTable:
                 each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
             },
             failures=tuple(failure for _, _, failure, _ in in_order),
+            gentle=tuple(each.name for each in gentle(metrics)),
         )
 
     @functools.cached_property
@@ -130,6 +135,7 @@ class ScoreTable:
             people=tuple(self.people[i] for i in members if self.people),
             values={name: array("d", (of[i] for i in members)) for name, of in self.values.items()},
             failures=tuple(self.failures[i] for i in members if self.failures),
+            gentle=self.gentle,
         )
 
     def part(self, behaviour: str | None = None, subject: str | None = None) -> Self:
@@ -160,8 +166,14 @@ class ScoreTable:
 
     def stored(self) -> Self:
         """Return what is left of the table when it is stored and read again."""
-        values = {LEADING: self.rmse_mm}
-        return type(self)(strata=self.strata, people=self.people, values=values, means=self.means)
+        values = {name: self.values[name] for name in (LEADING, *self.gentle)}
+        return type(self)(
+            strata=self.strata,
+            people=self.people,
+            values=values,
+            means=self.means,
+            gentle=self.gentle,
+        )
 
     def plain(self) -> dict[str, Any]:
         """Return what a stored table has, ready for JSON."""
@@ -170,6 +182,10 @@ class ScoreTable:
             **({"people": list(self.people)} if self.people else {}),
             "rmse_mm": list(self.rmse_mm),
             "means": dict(self.means),
+            "gentle": {
+                name: [None if math.isnan(value) else value for value in self.values[name]]
+                for name in self.gentle
+            },
         }
 
     @classmethod
@@ -181,7 +197,7 @@ class ScoreTable:
         msgspec.ValidationError
             If it is not such content; the message names the place and the type that it must have.
         ValueError
-            If there are not as many errors, or people, as strata.
+            If there are not as many errors, people, or values of another metric, as strata.
         """
         kept = msgspec.convert(content, _Stored)
         if len(kept.strata) != len(kept.rmse_mm):
@@ -190,11 +206,17 @@ class ScoreTable:
             )
         if kept.people and len(kept.people) != len(kept.strata):
             raise ValueError(f"{len(kept.people)} people for {len(kept.strata)} lifts")
+        values = {LEADING: array("d", kept.rmse_mm)}
+        for name, lifts in kept.gentle.items():
+            if len(lifts) != len(kept.strata):
+                raise ValueError(f"{len(lifts)} values of {name} for {len(kept.strata)} lifts")
+            values[name] = array("d", (math.nan if each is None else each for each in lifts))
         return cls(
             strata=kept.strata,
             people=kept.people,
-            values={LEADING: array("d", kept.rmse_mm)},
+            values=values,
             means=kept.means,
+            gentle=tuple(kept.gentle),
         )
 
 
@@ -210,6 +232,7 @@ class _Stored(msgspec.Struct):
     rmse_mm: tuple[float, ...]
     means: dict[str, float | None]
     people: tuple[str, ...] = ()
+    gentle: dict[str, tuple[float | None, ...]] = {}
 
 
 class Paired(NamedTuple):

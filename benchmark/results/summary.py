@@ -9,6 +9,7 @@ from typing import Any, Self
 import numpy as np
 from colift.benchmark.episode.metric import LEADING, reached
 from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.strata import plain_means
 from colift.benchmark.statistics import Estimate, Interval, MeanWithMissing, interquartile_mean
@@ -51,6 +52,9 @@ class Summary:
     vs_human: Estimate | None
     """RMSE divided by that of the human-human baseline, geometric mean over the lifts; None without
     this baseline."""
+    rougher: tuple[str, ...] | None
+    """Metrics by which the policy is rougher than the human-human baseline, see :func:`.rougher`;
+    None if that is not known."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics by name."""
     step_ms: StepTimes
@@ -69,6 +73,7 @@ class Summary:
                 "ci95": plain_interval(self.rmse_mm.ci95),
             },
             "vs_human": None if self.vs_human is None else plain_estimate(self.vs_human),
+            "rougher": None if self.rougher is None else list(self.rougher),
             **plain_means(self.metrics),
             "step_ms": dataclasses.asdict(self.step_ms),
             "real_time": self.real_time,
@@ -102,15 +107,16 @@ def summarise(run: Run, scores: ScoreTable, human_human: ScoreTable | None = Non
         partner, less is better. Without it, or if only a part of the episodes has been played,
         ``vs_human`` is None.
     """
+    if human_human is not None and len(human_human.strata) != len(scores.strata):
+        human_human = None
     return Summary(
         episodes=len(run.episodes),
         failed=scores.failed,
         goal_missed=sum(not reached(each.scores, run.suite.metrics) for each in run.episodes),
         rmse_mm=scores.error,
         rmse_mm_iqm=interquartile_mean(scores.rmse_mm),
-        vs_human=None
-        if human_human is None or len(human_human.strata) != len(scores.strata)
-        else scores.against(human_human).ratio,
+        vs_human=None if human_human is None else scores.against(human_human).ratio,
+        rougher=None if human_human is None else rougher(scores, human_human, run.suite.metrics),
         metrics={name: scores.metric(name) for name in scores.values if name != LEADING},
         step_ms=StepTimes.of(run),
     )

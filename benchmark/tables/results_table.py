@@ -10,6 +10,7 @@ from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
+from colift.benchmark.results.roughness import MEANING, ROUGHER, by_which
 from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
@@ -68,7 +69,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     )
 
 
-def results_text(content: Results) -> str:
+def results_text(content: Results, metrics: Metrics) -> str:
     """Return the lines that compare the policy with the baselines."""
     summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
@@ -76,6 +77,8 @@ def results_text(content: Results) -> str:
         lines.append(f"Channel to the policy: {content.channel}. The baselines have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
+    if summary.rougher:
+        lines.append(f"{ROUGHER.capitalize()}, by {by_which(summary.rougher, metrics)}. {MEANING}")
     for name, baseline in content.baselines.items():
         lines.append(f"  {NAMES.get(name, name)}: {baseline.mean:.2f} mm")
     if summary.goal_missed and content.goals is None:  # A real person need not follow the plan.

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.episode.metric import Metric
+from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, optional_number, styled, table
 from colift.leaderboard.core.standings import RankedRow, UnrankedScores
@@ -48,7 +49,10 @@ def board_table(
     most = max(room, len("policy"))
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
     title = f"Season {season.name} on {season.suite}"
-    return table(title, columns, lines, caption=_caption(metrics, every[len(metrics) :], wide))
+    caption = _caption(metrics, every[len(metrics) :], wide)
+    if any(each.row.hidden.rougher for each in standings):
+        caption += f" {SIGN}: {ROUGHER}."
+    return table(title, columns, lines, caption=caption)
 
 
 def _room(
@@ -95,11 +99,12 @@ def _cells(each: RankedRow, metrics: Sequence[Metric], wide: bool) -> list[str]:
 
 
 def _rank(each: RankedRow) -> str:
+    mark = f" {SIGN}" if each.row.hidden.rougher else ""
     if each.section == "not real-time":
-        return f"slow {each.rank or ''}".rstrip()
+        return f"slow {each.rank or ''}".rstrip() + mark
     if each.section == "ranking":
-        return str(each.rank or "-")
-    return each.section
+        return str(each.rank or "-") + mark
+    return each.section + mark
 
 
 def _human_human(baseline: UnrankedScores, metrics: Sequence[Metric], wide: bool) -> list[str]:

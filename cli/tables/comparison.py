@@ -8,6 +8,7 @@ from colift.benchmark.comparison.formatting import between, digits, p_value, pro
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
 from rich.table import Column, Table
@@ -42,7 +43,7 @@ def ranks_table(comparison: Comparison) -> Table:
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
         + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
-        f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}",
+        f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 
 
@@ -70,6 +71,12 @@ def _fewer(comparison: Comparison) -> str:
     return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
 
+def _rough(comparison: Comparison) -> str:
+    """Return the meaning of the mark of rough policies; empty if there is none."""
+    marked = any(ranked.rougher for ranked in comparison.overall.policies)
+    return f" {SIGN}: {ROUGHER}." if marked else ""
+
+
 def _baseline_row(comparison: Comparison, name: str) -> list[str]:
     baseline, overall = comparison.results.unranked[name], comparison.overall
     rmse = overall.unranked_rmse_mm[name]
@@ -86,13 +93,18 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
 def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
     overall, metrics = comparison.overall, comparison.results.metrics
     return [
-        str(ranked.rank) if overall.decisive else "",
+        _rank(overall, ranked),
         policy_cell(ranked.name),
         f"{ranked.rmse_mm.mean:.2f}",
         _interval(ranked.rmse_mm),
         f"{ranked.vs_human.mean:.2f}",
         *(_metric(metric, ranked) for metric in metrics),
     ]
+
+
+def _rank(overall: Ranking, ranked: RankedPolicy) -> str:
+    rank = str(ranked.rank) if overall.decisive else ""
+    return f"{rank} {SIGN}".lstrip() if ranked.rougher else rank
 
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> str:

@@ -64,6 +64,7 @@ def hidden_scores(run: Run, human_human: ScoreTable) -> HiddenScores:
         vs_human=_known(summary.vs_human).rounded(PLACES),
         real_time=real_time(summary.step_ms.p99, run.suite),
         better_than_human=None if better is None else round(better, PLACES),
+        rougher=summary.rougher,
     )
 
 

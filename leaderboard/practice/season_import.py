@@ -25,7 +25,7 @@ from colift.leaderboard.practice.season import SUITES, practice_season
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, SeasonInfo
 from colift.leaderboard.storage.store import has_board
 
-FORMAT: Final = 2
+FORMAT: Final = 3
 
 log: Final = logging.getLogger(__name__)
 

@@ -58,6 +58,9 @@ class HiddenScores:
     """The same as for the public episodes."""
     better_than_human: float | None
     """Probability that ``vs_human`` is below 1 with other people; None if all are of one person."""
+    rougher: tuple[str, ...] | None = None
+    """Names of the metrics by which it is rougher than two people; None in a row of a season in
+    which this was not known."""
 
 
 @dataclass(frozen=True, kw_only=True)

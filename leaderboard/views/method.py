@@ -14,14 +14,12 @@ from colift.leaderboard.views.references import references_of
 def _method(visit: Visit) -> Content:
     """Return the numbers of the current season, and the isolation levels, strongest first."""
     season = find_season(visit.board)
-    references = references_of(visit.board, season)
     return {
         "season": season,
         "seasons": ordered_seasons(visit.board),
         "lifts": public_episodes(visit.board, season),
         "human_human": visit.board.human_human(season.name),
-        "trained": any(each.trained for each in references),
-        "oracle": any(not each.trained for each in references),
+        "references": references_of(visit.board, season),
         "failed_frame_mm": FAILED_FRAME_MM,
         "limits": LIMITS,
         "isolation": LEVELS,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.benchmark.references.oracle import ORACLE
+from colift.benchmark.references.told import TOLD
 from colift.benchmark.results.baselines import (
     BEST_KNOWN,
     HUMAN_HUMAN,
@@ -23,6 +24,7 @@ from colift.leaderboard.views.suites import season_suite
 MEANINGS: Final[Mapping[str, str]] = {
     BEST_KNOWN: "sees what a policy sees; trained longer, for a small error alone: the least "
     "error known so far",
+    TOLD: "is told what each lift draws and a policy has to infer",
     ORACLE: "knows where the person is going, and rehearses the lift",
 }
 """Description of each reference."""

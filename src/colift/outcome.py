@@ -81,8 +81,9 @@ class Evaluation:
         console = Console(
             file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
         )
-        lines = (results_text(self.results), *reported_failures(self.run))
-        show(results_table(self.results, self.run.suite.metrics), *lines, console=console)
+        metrics = self.run.suite.metrics
+        lines = (results_text(self.results, metrics), *reported_failures(self.run))
+        show(results_table(self.results, metrics), *lines, console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
 

@@ -10,8 +10,8 @@ from colift.agents.tasks.agree.agree_leader import AgreeLeader, AgreeLeaderParam
 class AgreeFollowerParameters(AgreeLeaderParameters):
     """Parameters of :class:`AgreeFollower`."""
 
-    needed: Positive = 0.75
-    """Time that it takes for itself at the end of its window [s]."""
+    needed: Positive = 1.0
+    """Time that it takes for itself at the end of its window, with the stay [s]."""
 
 
 class AgreeFollower(AgreeLeader):

@@ -5,16 +5,16 @@ from typing import Any, Final, Generic, NamedTuple
 from colift.agents.rules import ArrayFunctions, N
 from colift.benchmark.tasks.agree.manner import AgreeingManner
 
-NEEDED: Final = 0.7
-"""Time that a passage needs [s]."""
+NEEDED: Final = 0.9
+"""Time that a passage needs, with the stay [s]."""
 
 EARLY: Final = 0.25
 """Time before the window opens at which a passage may begin [s]."""
 
 NEAR: Final = 0.006
 FAR_NEAR: Final = 0.015
-"""Distances of the person's end and of the far end from the hurdle within which the table counts as
-having passed [m]."""
+"""Distances of the person's end and of the far end from the hurdle within which the table is there
+[m]."""
 
 AWAY: Final = 0.02
 """Distance from the common height beyond which a partner has a goal of its own [m]."""
@@ -28,6 +28,9 @@ SLOW: Final = 0.05
 SERVED: Final = 0.2
 """Time that the table rests at the partner's goal until the person takes that hurdle as passed
 [s]."""
+
+STAYED: Final = 0.2
+"""Time that the table stays at the person's own hurdle until the person takes it as passed [s]."""
 
 
 class Secret(NamedTuple, Generic[N]):
@@ -70,6 +73,8 @@ class Turn(NamedTuple, Generic[N]):
 
     rested: N
     """Time for which the table has rested at a goal of the partner's [s]."""
+    stayed: N
+    """Time for which the table has stayed at the person's own hurdle [s]."""
     conflict: N
     """Time for which both have been going to their own goals [s]."""
     begun: Any
@@ -129,8 +134,9 @@ def mine(
     ends = f.logical_and(
         f.abs(seen.own - hurdle.height) < NEAR, f.abs(seen.far - hurdle.height) < FAR_NEAR
     )
-    passes = f.logical_and(f.logical_and(given, hurdle.start <= 0.0), ends)
-    passed = f.logical_or(turn.passed, passes)
+    there = f.logical_and(f.logical_and(given, hurdle.start <= 0.0), ends)
+    stayed = f.where(there, turn.stayed + period, 0.0)
+    passed = f.logical_or(turn.passed, stayed > STAYED)
     earliest, latest = hurdle.start - EARLY, hurdle.stop - NEEDED
     patience = f.where(turn.served, 0.0, manner.patience)
     due = earliest + patience * (latest - earliest) <= 0.0
@@ -151,5 +157,7 @@ def mine(
         ),
     )
     begun = f.logical_or(turn.begun, f.logical_and(open_now, begins))
-    turn = turn._replace(conflict=conflict, begun=begun, yielded=yielded, passed=passed)
+    turn = turn._replace(
+        stayed=stayed, conflict=conflict, begun=begun, yielded=yielded, passed=passed
+    )
     return turn, goes

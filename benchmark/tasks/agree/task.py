@@ -25,6 +25,7 @@ from colift.benchmark.tasks.agree.hurdles import Hurdle, HurdlePlan
 from colift.benchmark.tasks.agree.person import Negotiates
 from colift.benchmark.tasks.agree.precedence import Obstacle, secret
 from colift.benchmark.tasks.agree.scores import (
+    STAY,
     agreement_ms,
     agreement_rmse_mm,
     leading_mw,
@@ -40,8 +41,9 @@ from numpy.typing import NDArray
 MOST_UNCERTAIN: Final = 1.0
 """Largest uncertainty of the far end's speed [m/s]: its speed is then practically unknown."""
 
-NEVER: Final = 1.0
-"""Square distance from a hurdle outside its window [m2]: larger than any within it."""
+NEVER: Final = 2.0 * STAY
+"""Square distance from a hurdle outside its window [m2]: a stay with one such frame is farther away
+than any within the window."""
 
 
 class Windows(NamedTuple):
@@ -106,7 +108,7 @@ class Agree(Touch):
         "no_hurdle",
     )
     senses: ClassVar[tuple[Sense, ...]] = HURDLE_SENSES
-    least: ClassVar[tuple[bool, ...]] = (True, True, False)
+    stays: ClassVar[tuple[int, ...]] = (STAY, STAY, 0)
 
     def __post_init__(self) -> None:
         """Check the range."""

@@ -131,10 +131,14 @@ class BallSteering(Touch):
         felt = trace.human_force - WEIGHT_SHARE - self.ball.mass * GRAVITY / 2
         nan, empty = math.nan, len(place) == 0
         peaks, speed = (nan, nan) if failed else velocity_peaks(place, target)
+        error = self.rmse_mm(lift, trace, place)
+        shared = lift.facts.shown > 0.0
         lost = not empty and bool(np.abs(place[-lift.frames_per_step :]).max() > TABLE_LENGTH / 2)
         return {
-            "rmse_mm": self.rmse_mm(lift, trace, place),
+            "rmse_mm": error,
             "settling_ms": nan if failed else ball_settling_ms(place - target, target),
+            "shared_rmse_mm": error if shared else nan,
+            "private_rmse_mm": nan if shared else error,
             "velocity_peaks": peaks,
             "peak_speed_m_s": speed,
             "fallen": float(lost),

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 from colift.agents.agent import Agent
 from colift.agents.humans import Plan
 from colift.agents.humans.person import Person
-from colift.agents.rules import ArrayFunctions, N
+from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
 from colift.benchmark.episode import metrics
 from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
@@ -27,6 +27,9 @@ from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 
+DOWN: Final = 0.05
+"""Height of an end [m] up to which the table counts as put down."""
+
 
 class Pose(NamedTuple):
     """The task's series: planned heights at the end of each frame [m]."""
@@ -37,13 +40,22 @@ class Pose(NamedTuple):
     """Of the far end."""
 
 
+class Lowering(NamedTuple):
+    """The task's numbers: the last movement of the plan, which puts the table down."""
+
+    start: Any
+    """Its first frame."""
+    stop: Any
+    """The frame after its last; 0, as the first, without a movement."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Intent(Touch):
     """Bring the table to the pose that the human intends: level, pivoted, or turned.
 
     The robot has :class:`.HapticObservation`: it sees the motion of the human's end, and feels the
     torque of the human's wrists. The human has :class:`.HumanObservation`, and slows down if the
-    far end does not follow.
+    far end does not follow: a plan may not be done when the lift is over (:meth:`unfinished`).
     """
 
     name: ClassVar[str] = "intent"
@@ -52,16 +64,29 @@ class Intent(Touch):
     second_human: ClassVar[type[Agent]] = Companion
     behaviours: ClassVar[tuple[str, ...]] = ("together", "pivot", "counter", "switching")
 
-    def setting(
-        self, plan: Plan, frames: int, seed: Callable[[str], int]
-    ) -> tuple[Pose, tuple[()]]:
-        """Return the planned heights of both ends."""
+    def setting(self, plan: Plan, frames: int, seed: Callable[[str], int]) -> tuple[Pose, Lowering]:
+        """Return the planned heights of both ends, and the last movement."""
         far = plan.far if isinstance(plan, PosePlan) else plan.target
-        return Pose(lasting(plan.target, frames), lasting(far, frames)), ()
+        start, stop = plan.strokes[-1] if plan.strokes else (0, 0)
+        pose = Pose(lasting(plan.target, frames), lasting(far, frames))
+        return pose, Lowering(float(start), float(stop))
 
     def missed(self, f: ArrayFunctions[N], due: Any, ends: Any) -> Sequence[N]:
         """Return the square distance of the ends from the pose, averaged over both."""
         return (((ends.near - due.near) ** 2 + (ends.far - due.far) ** 2) / 2,)
+
+    def unfinished(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> N:
+        """Return the frames of the plan, to the end of its last movement, that are not done.
+
+        Those are the frames that the person has not come to; and all frames of the last movement,
+        which puts the table down, while an end is higher than :data:`DOWN`.
+        """
+        lowering = drawn.facts
+        late = f.clip(lowering.stop - view.seen("time", 0), 0.0, math.inf)
+        ends = f.abs(view.seen("human_end", 0)), f.abs(view.seen("robot_end", 0))
+        up = f.logical_or(ends[0] > DOWN, ends[1] > DOWN)
+        last = lowering.stop - lowering.start
+        return f.where(f.logical_and(up, late < last), last, late)
 
     def rewards(self, lift: Playing) -> tuple[float, float]:
         """Return minus the distances of both ends, and of the far end alone, from the pose [m]."""
@@ -87,6 +112,7 @@ class Intent(Touch):
         return {
             "rmse_mm": self.rmse_mm(lift, trace),
             "settling_ms": nan if failed else settling_ms(far, strokes),
+            "finished": self._finished(lift),
             "peak_mm": nan if failed else peak_mm(far, strokes),
             "near_rmse_mm": nan if empty else pose_rmse_mm((near,), len(near)),
             "max_tilt_deg": tilt,
@@ -94,6 +120,11 @@ class Intent(Touch):
             "opposing_work_j": opposing_work_j(felt, trace.human_velocity),
             "clipped": lift.clipped(trace.action),
         }
+
+    def _finished(self, lift: Playing) -> float:
+        """Return the share of the plan that is done; NaN without a movement."""
+        stop: float = lift.facts.stop
+        return 1.0 - self.unfinished(SCALARS, lift.drawn, lift) / stop if stop else math.nan
 
 
 def intent_suite() -> Suite:

@@ -148,6 +148,7 @@ class Level:
             "max_tilt_deg": nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
             "sparc": nan if failed else smoothness(metric=sparc),
             "ldlj": nan if failed else smoothness(metric=ldlj),
+            "rest_speed_mm_s": nan if empty else metrics.rest_speed_mm_s(robot, lift.plan.strokes),
             "human_force_n": nan if empty else metrics.human_force_n(felt),
             "human_work_j": nan if empty else metrics.human_work_j(felt, trace.human_velocity),
             "robot_lag_ms": nan if failed else metrics.robot_lag_ms(human, robot),

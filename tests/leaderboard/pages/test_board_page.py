@@ -209,6 +209,15 @@ def test_two_people_and_the_references_stand_below_the_policies_and_follow_a_fil
     )
 
 
+def test_the_method_explains_the_references_that_have_been_played(page, front):
+    page.goto(front)
+    page.get_by_role("link", name="Method").click()
+    told = page.locator("#references + dd")
+    expect(told).to_contain_text("The best known (trained) sees what a policy sees")
+    expect(told).to_contain_text("The oracle knows where the person is going")
+    expect(told).to_contain_text("the same hidden lifts as the rows")
+
+
 def test_the_first_rows_are_above_the_fold_and_the_heads_stand_at_one_height(page, front):
     page.goto(front)
     assert page.locator("tbody tr").first.bounding_box()["y"] < 320

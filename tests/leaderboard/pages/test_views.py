@@ -42,7 +42,9 @@ def shown(folder):
 
 
 def human_human(mean):
-    return UnrankedScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
+    return UnrankedScores(
+        rmse_mm=around(mean), ratio=1.0, means={"sparc": -2.8, "human_force_n": 0.3}
+    )
 
 
 def around(mean):

@@ -121,7 +121,7 @@ class Deciding:
         self.manner = AgreeingManner(
             patience=patience, trust=1.0, stiffness=1.0, insistence=insistence
         )
-        self.turn = Turn(0.0, 0.0, False, False, False, False)
+        self.turn = Turn(0.0, 0.0, 0.0, False, False, False, False)
 
     def mine(self, start, stop, *, apart, own=0.15, far=0.15):
         """Return whether it is the person's turn."""
@@ -158,10 +158,13 @@ def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_par
     assert deciding.mine(-0.8, 0.7, apart=True)
 
 
-def test_a_hurdle_is_passed_by_both_ends_in_its_window_alone():
+def test_a_hurdle_is_passed_by_both_ends_that_stay_there_in_its_window():
     deciding = Deciding(0.0, 1.0)
-    deciding.mine(0.1, 1.0, apart=False, own=0.2, far=0.2)
-    deciding.mine(-0.1, 1.0, apart=False, own=0.2, far=0.17)
+    for _ in range(5):
+        deciding.mine(0.1, 1.0, apart=False, own=0.2, far=0.2)
+        deciding.mine(-0.1, 1.0, apart=False, own=0.2, far=0.17)
+    for far in (0.195, 0.205, 0.17, 0.2, 0.2):
+        assert deciding.mine(-0.1, 1.0, apart=False, own=0.201, far=far)
     assert not deciding.turn.passed
     assert not deciding.mine(-0.1, 1.0, apart=False, own=0.201, far=0.195)
     assert deciding.turn.passed
