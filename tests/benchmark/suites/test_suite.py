@@ -63,7 +63,6 @@ def test_the_suites_have_the_sizes_that_their_descriptions_say():
         "agree-v1": 25 * 6,
         "intent-v1": 25 * 4,
         "ball-v1": 25 * 4,
-        "robust-v1": 40 * 7,
     }
 
 
