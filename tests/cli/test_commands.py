@@ -66,7 +66,7 @@ def test_seeds_latency_and_control_period_make_other_episodes(colift):
     usual = json.loads(
         colift("run", "copy", "--suite", "quick-v1", "--seeds", "40:41", "--json").stdout
     )
-    assert content["summary"]["episodes"] == 4
+    assert content["summary"]["episodes"] == 12
     assert content["suite_digest"] != usual["suite_digest"]
     assert content["summary"]["rmse_mm"]["mean"] < usual["summary"]["rmse_mm"]["mean"]
 
