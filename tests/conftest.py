@@ -191,14 +191,19 @@ def peak_memory():
 
 
 @pytest.fixture(scope="session")
-def once(tmp_path_factory):
-    """Return what makes a folder once for all processes of the tests, and gives its path."""
+def shared_folder(tmp_path_factory):
+    """The folder that all processes of the tests share."""
     base = tmp_path_factory.getbasetemp()
-    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+    return base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
+
+
+@pytest.fixture(scope="session")
+def once(shared_folder):
+    """Return what makes a folder once for all processes of the tests, and gives its path."""
 
     def folder(name, make):
-        place, made = base / name, base / f"{name}-{os.getpid()}"
-        with (base / f"{name}.lock").open("w") as lock:
+        place, made = shared_folder / name, shared_folder / f"{name}-{os.getpid()}"
+        with (shared_folder / f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not place.exists():
                 made.mkdir()

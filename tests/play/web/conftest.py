@@ -1,5 +1,6 @@
 """A server of live lifts, and pages of it in a browser that report every error."""
 
+import fcntl
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -12,6 +13,14 @@ from .browsing import start_patient_room
 from .pages import playing
 
 OpenPage = Callable[..., Page]
+
+
+@pytest.fixture(autouse=True)
+def one_at_a_time(shared_folder) -> Iterator[None]:
+    """Let live lifts take turns: a browser that shares its processor is too late for a goal."""
+    with (shared_folder / "live-lifts.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,13 @@ class Browser:
         answer = self._asked[number] = asyncio.get_running_loop().create_future()
         sending = asyncio.ensure_future(self._socket.send(json.dumps(message)))
         self._sending.add(sending)
-        sending.add_done_callback(self._sending.discard)
+
+        def sent(sending: asyncio.Future[None]) -> None:
+            self._sending.discard(sending)
+            if not sending.cancelled() and (error := sending.exception()) and not answer.done():
+                answer.set_exception(error)
+
+        sending.add_done_callback(sent)
         return answer
 
     async def open(self, hear: Callable[[str, Answer], None], size: tuple[int, int]) -> "Tab":
@@ -84,11 +90,14 @@ class Browser:
         return tab
 
     async def listen(self) -> None:
-        """Hand on what the browser says, until it has ended."""
+        """Hand on what the browser says, until it has ended; nobody waits for it any longer."""
         while True:
             try:
                 text = await self._socket.recv()
-            except ConnectionClosed:
+            except ConnectionClosed as closed:
+                for answer in self._asked.values():
+                    if not answer.done():
+                        answer.set_exception(closed)
                 return
             message = json.loads(text)
             number = message.get("id")

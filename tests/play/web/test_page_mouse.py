@@ -17,6 +17,8 @@ EVERY_S = 0.004
 SPEED = 0.25
 """Of the hand, on its way to each goal [m/s]."""
 
+TRIES = 3
+
 COUNT = 2e-4
 """Metres in a count."""
 
@@ -33,20 +35,22 @@ def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     assert max(way) > 0.1
     assert heights[-1] == pytest.approx(way[-1], abs=COUNT)
     assert all(a < b for a, b in itertools.pairwise(times))
-    folder = next(sessions.glob("*/lifts/001-copy"))
+    (folder,) = sessions.glob("*/lifts/*-copy")
     log = read_bundle(folder).recipe.suite().scenarios[0].human.log
     used = len(log.times)
     moved = max(i for i, height in enumerate(heights) if height != heights[-1])
     assert used > moved  # Only what a page sends after the end, the later the busier, is left out.
     assert log.heights.tolist() == pytest.approx(heights[:used])
-    report = json.loads(folder.with_name("001-copy.times.json").read_text())
+    report = json.loads(folder.with_name(f"{folder.name}.times.json").read_text())
     delays = [each for part in report["seat_0"] for each in part["delays_ms"]]
     assert len(delays) > 20  # At ten pictures a second, too.
     assert 0 < min(delays) < 4000
 
 
 async def lifted(url: str) -> tuple[Hand, list[float]]:
-    """Lift once, and look at what the page shows afterwards.
+    """Lift until a lift counts, and look at what the page shows afterwards.
+
+    A busy machine may be too late for a goal; then the page asks for another lift, as of a person.
 
     Returns
     -------
@@ -63,20 +67,31 @@ async def lifted(url: str) -> tuple[Hand, list[float]]:
         await page.locator('input[name="partner"][value="copy"]').check()
         await page.get_by_label("I agree").check()
         await page.get_by_role("button", name="To the table").click()
-        button = page.get_by_role("button", name="Lift", exact=True)
-        await expect(button).to_be_visible(timeout=WAIT_MS)
-        box = await button.bounding_box()
-        await button.click()
-        lifting = expect(page.locator("body"))
-        await lifting.to_have_attribute("data-phase", "lifting", timeout=WAIT_MS)
-        assert await page.evaluate("document.pointerLockElement.id") == "stage"
-        while await page.evaluate("coliftPlay.page.lifting.frames.last") < 5:
-            await asyncio.sleep(0.02)
-        way = await follow(page, box["y"] + box["height"] / 2)
-        assert len(hand.samples) > hand.packets > 50  # What gathers is sent together, whole.
+        for _ in range(TRIES):
+            way = await one_lift(page, hand)
+            ended = page.locator("#result, #lift").locator("visible=true")
+            await expect(ended.first).to_be_visible(timeout=WAIT_MS)
+            if await page.locator("#result").is_visible():
+                break
         await looked_at(page)
         await browser.close()
         return hand, way
+
+
+async def one_lift(page: Page, hand: Hand) -> list[float]:
+    """Take hold and follow the goals; see :func:`follow`."""
+    button = page.get_by_role("button", name="Lift", exact=True)
+    await expect(button).to_be_visible(timeout=WAIT_MS)
+    box = await button.bounding_box()
+    await button.click()
+    lifting = expect(page.locator("body"))
+    await lifting.to_have_attribute("data-phase", "lifting", timeout=WAIT_MS)
+    assert await page.evaluate("document.pointerLockElement.id") == "stage"
+    while await page.evaluate("coliftPlay.page.lifting.frames.last") < 5:
+        await asyncio.sleep(0.02)
+    way = await follow(page, box["y"] + box["height"] / 2)
+    assert len(hand.samples) > hand.packets > 50  # What gathers is sent together, whole.
+    return way
 
 
 async def follow(page: Page, begins: float) -> list[float]:
