@@ -38,7 +38,7 @@ nitpicky = True
 smartquotes = False  # It would make a dash of the two hyphens of an option.
 nitpick_ignore_regex = [
     ("py:.*", "(?!colift).*"),  # Other projects' sites cannot be asked offline.
-    ("py:class", r"colift\.agents\.rules\.functions\..*"),  # Types of numbers and arrays.
+    ("py:(class|obj)", r"colift\.agents\.rules\.functions\..*"),  # Types of numbers and arrays.
 ]
 # Parts of others, without pages.
 nitpick_ignore = [
