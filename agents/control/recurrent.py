@@ -142,8 +142,8 @@ def memory_at_rest(network: GatedNetwork) -> Memory:
     return Memory(np.zeros(network.units), 0.0, 0.0, 0.0, 0.0)
 
 
-def network_of(arrays: Any, source: str, inputs: int = INPUTS) -> GatedNetwork:
-    """Return the network of named arrays with so many inputs, in double precision.
+def network_of(arrays: Any, source: str, inputs: int = INPUTS, outputs: int = 1) -> GatedNetwork:
+    """Return the network of named arrays with so many inputs and outputs, in double precision.
 
     Raises
     ------
@@ -164,8 +164,8 @@ def network_of(arrays: Any, source: str, inputs: int = INPUTS) -> GatedNetwork:
         "inputs": (3 * units, inputs),
         "memory": (3 * units, units),
         "bias": (3 * units,),
-        "output": (1, units + inputs),
-        "output_bias": (1,),
+        "output": (outputs, units + inputs),
+        "output_bias": (outputs,),
     }
     for name, shape in shapes.items():
         if found[name].shape != shape:

@@ -9,12 +9,11 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.submissions import touch as submission
+from colift.agents.tasks.touch.alone_law import law_of, ports_of
 from colift.agents.tasks.touch.touch_controller import TouchController, touch_network
 from colift.agents.tasks.touch.touch_law import (
     TouchMemory,
     TouchNetwork,
-    felt_action,
-    inputs_of,
     touch_at_rest,
 )
 from colift.base.errors import InputError
@@ -54,7 +53,8 @@ class TouchLesson:
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
         """Return a network that hardly departs from level."""
-        return first_network(inputs_of(self.twin.task.senses), settings.units, seed)
+        inputs, outputs = ports_of(self.twin.task.senses, alone=self.alone)
+        return first_network(inputs, settings.units, seed, outputs)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
@@ -128,9 +128,10 @@ class TouchLesson:
 
 def touch_policy(learned: TouchNetwork, count: int) -> tuple[Any, TouchMemory]:
     """Return the policy of a network, and its memory at the beginning of n lifts."""
+    law = law_of(learned)
 
     def policy(memory: TouchMemory, view: jax.Array) -> tuple[TouchMemory, jax.Array]:
-        return felt_action(learned, memory, view, JAX)
+        return law(learned, memory, view, JAX)
 
     rest = touch_at_rest(learned)
     return policy, jax.tree.map(lambda zero: jnp.zeros((*np.shape(zero), count)), rest)

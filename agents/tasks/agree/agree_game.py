@@ -34,11 +34,11 @@ SMALL: Final = 0.003
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeGameParameters:
-    """Parameters of :class:`AgreeGame`, tuned by hand on new people and seeds of no suite."""
+    """Parameters of :class:`AgreeGame`, tuned by ``colift admit agree-v1 --tune``."""
 
-    early: Positive = 0.35
+    early: Positive = 0.7
     """Time before its window opens at which it may set out [s]."""
-    lead: Positive = 0.1
+    lead: Positive = 0.05
     """Time by which the human's end is extrapolated while it is followed [s]."""
     apart: Probability = 0.65
     """Probability that the human has a goal of its own from which the robot gives way."""
@@ -50,7 +50,7 @@ class AgreeGameParameters:
     """Time for which it does not give way again after it has let the human go first [s]."""
     pace: Positive = 8.0
     """Natural frequency of the approach [rad/s]."""
-    belief: BeliefParameters = field(default_factory=BeliefParameters)
+    belief: BeliefParameters = field(default_factory=lambda: BeliefParameters(noise=0.056))
     """The filter of the human's goal."""
 
     def __post_init__(self) -> None:

@@ -12,11 +12,11 @@ from colift.agents.tasks.ball.tracking import Tracking
 class BallAdmittanceParameters:
     """Parameters of :class:`BallAdmittance`."""
 
-    admittance: NotNegative = 2.0
+    admittance: NotNegative = 1.4
     """Commanded height difference, relative to the one that the wrists seem to mean."""
     calming: NotNegative = 0.1
     """Height difference against the ball's motion, per speed [s]."""
-    steepest: NotNegative = 0.08
+    steepest: NotNegative = 0.034
     """Largest height difference [m]."""
 
     def __post_init__(self) -> None:

@@ -13,7 +13,7 @@ from colift.agents.tasks.ball.tracking import Tracking
 class BallCalmParameters:
     """Parameters of :class:`BallCalm`."""
 
-    calming: NotNegative = 0.2
+    calming: NotNegative = 0.4
     """Height difference against the ball's motion, per speed [s]."""
     steepest: NotNegative = 0.08
     """Largest height difference [m]."""

@@ -20,11 +20,11 @@ from colift.agents.tasks.ball.tracking import Tracking
 class BallGameParameters:
     """Parameters of :class:`BallGame`."""
 
-    ahead: NotNegative = 0.07
+    ahead: NotNegative = 0.084
     """Time from now at which a command acts, on average [s]."""
     gain: NotNegative = 0.8
     """Height difference relative to that of the person's law."""
-    steepest: NotNegative = 0.07
+    steepest: NotNegative = 0.14
     """Largest height difference [m]."""
     felt_noise: NotNegative = FELT_NOISE
     """See :class:`.AimFilter` [m]; a value of 1 switches the use of the wrists off."""

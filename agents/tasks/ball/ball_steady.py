@@ -16,7 +16,7 @@ class BallSteadyParameters:
 
     place_gain: NotNegative = 0.5
     """Height difference per distance from the target [m/m]."""
-    speed_gain: NotNegative = 0.45
+    speed_gain: NotNegative = 0.225
     """Height difference per speed of the ball [s]."""
     steepest: NotNegative = 0.1
     """Largest height difference [m]."""

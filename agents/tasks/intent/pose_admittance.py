@@ -13,7 +13,7 @@ from colift.agents.tasks.touch.observation import HapticObservation
 class PoseByAdmittanceParameters:
     """Parameters of :class:`PoseByAdmittance`."""
 
-    yielding: Positive = 0.6
+    yielding: Positive = 0.84
     """Velocity per force [m/(s N)]. Tuned in factors of two, on seeds from 100000 on."""
 
     def __post_init__(self) -> None:

@@ -12,9 +12,6 @@ from colift.agents.tasks.touch.touched import FAR_STIFFNESS, TABLE_LENGTH, WRIST
 AHEAD: Final = 1.2
 """Control periods by which the straight line leads, for the lag of the arm."""
 
-FURTHER: Final = 2.2
-"""The same for a network without a partner, whose straight line is a latency old."""
-
 REACH: Final = 0.1
 """Departure from a level table per unit of the network's output [m]."""
 
@@ -30,8 +27,7 @@ class TouchNetwork(NamedTuple):
     """The task's senses besides sight and touch."""
     network: GatedNetwork
     alone: bool = False
-    """Whether it is blind to the partner: it sees the other end only to keep level with it, and
-    departs from level by what it knows of the task and of its own hand."""
+    """Whether it acts alone, by :func:`.alone_action`."""
 
     @property
     def expected(self) -> int:
@@ -69,9 +65,6 @@ def felt_action(
 
         z + AHEAD d + REACH * network(units, inputs).
 
-    A network that is blind to its partner (:attr:`TouchNetwork.alone`) has the seen height as z,
-    FURTHER instead of AHEAD, and 0 for each input that tells of the other end or of touch.
-
     Parameters
     ----------
     learned
@@ -88,36 +81,33 @@ def felt_action(
     force = observation[layout.FORCE]
     pitch = -observation[layout.TORQUE] / FAR_STIFFNESS
     near = hand - TABLE_LENGTH * pitch * (1.0 - pitch * pitch / 6.0)
-    if learned.alone:
-        near = observation[layout.HUMAN_END]
-    partner = 0.0 if learned.alone else 1.0
     wrist = pitch + (FAR_STIFFNESS * pitch - force * TABLE_LENGTH) / WRIST_STIFFNESS
     rise = (near - memory.near) * memory.begun
     own = tuple(observation[len(HapticObservation) + i] for i in range(len(learned.senses)))
     inputs = functions.stack(
         (
-            partner * 50.0 * rise,
-            partner * 10.0 * (near - 0.1),
+            50.0 * rise,
+            10.0 * (near - 0.1),
             10.0 * (hand - 0.1),
             50.0 * (command - memory.command) * memory.begun,
             20.0 * (command - hand),
-            partner * 10.0 * pitch,
-            partner * 10.0 * wrist,
-            partner * 2.0 * force,
-            partner * 10.0 * (observation[layout.HUMAN_END] - 0.1),
-            partner * 20.0 * (observation[layout.ROBOT_END] - observation[layout.HUMAN_END]),
-            *_inputs(learned.senses, own, memory),
+            10.0 * pitch,
+            10.0 * wrist,
+            2.0 * force,
+            10.0 * (observation[layout.HUMAN_END] - 0.1),
+            20.0 * (observation[layout.ROBOT_END] - observation[layout.HUMAN_END]),
+            *own_inputs(learned.senses, own, memory),
         )
     )
     units = gated(network, memory.units, inputs, functions)
     output = functions.product(network.output, functions.join((units, inputs)))
     departure = REACH * (output[0] + network.output_bias[0])
-    wanted = near + (FURTHER if learned.alone else AHEAD) * rise + departure
+    wanted = near + AHEAD * rise + departure
     begun = memory.begun * 0.0 + 1.0
     return TouchMemory(units, near, command, own, begun), wanted - command
 
 
-def _inputs(senses: tuple[Sense, ...], own: tuple[Any, ...], memory: TouchMemory) -> list[Any]:
+def own_inputs(senses: tuple[Sense, ...], own: tuple[Any, ...], memory: TouchMemory) -> list[Any]:
     """Return the inputs that only this task has: its senses, and the changes of some."""
     found = []
     for sense, number, last in zip(senses, own, memory.own, strict=True):
