@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork, network_of
-from colift.benchmark.episode.scenario import LATENCY
+from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.training.apg import first_learner, updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.conditioned_lesson import ConditionedLesson, told_pool
@@ -32,7 +32,7 @@ def train_variants(
     progress
         Called with the number of updates since the last call.
     """
-    narrow = replace(lesson.conditions, latency=(LATENCY, LATENCY))
+    narrow = usual_delay(lesson.conditions)
     drawn = {
         usual: lesson.lifts(settings, narrow if usual else lesson.conditions)
         for usual in (True, False)
@@ -49,6 +49,18 @@ def train_variants(
         network = _in_numpy(learner.network)
         found[name] = ToldNetwork(network=network, telling=telling, conditions=conditions)
     return found
+
+
+def usual_delay(conditions: Conditions) -> Conditions:
+    """Return conditions in which each sample is as old as in the suites without conditions."""
+    usual = Conditions()
+    return replace(
+        conditions,
+        latency=usual.latency,
+        jitter=usual.jitter,
+        loss=usual.loss,
+        burst=usual.burst,
+    )
 
 
 def _in_numpy(network: GatedNetwork) -> GatedNetwork:

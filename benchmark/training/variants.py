@@ -15,13 +15,14 @@ class Variant(NamedTuple):
     person: bool = False
     """Whether it is told the behaviour and the person's habits."""
     usual: bool = False
-    """Whether it knows no latency but :data:`.LATENCY`; all else is the suite's."""
+    """Whether it knows no delay but that of the suites without conditions; all else is the
+    suite's."""
 
 
-UPDATES: Final = 400
+UPDATES: Final = 1000
 """Updates of each training, unless another number is given."""
 
-USUAL, UNTOLD, TOLD_BOTH = "usual latency", "untold", "told both"
+USUAL, UNTOLD, TOLD_BOTH = "usual delay", "untold", "told both"
 
 VARIANTS: Final[Mapping[str, Variant]] = {
     USUAL: Variant(usual=True),
@@ -43,4 +44,4 @@ def budget(updates: int = UPDATES) -> ApgSettings:
     """
     if updates < 1:
         raise InputError(f"--updates must be at least 1, got {updates}")
-    return ApgSettings(updates=updates, lifts=1500, batch=128, units=32)
+    return ApgSettings(updates=updates, lifts=6000, batch=128, units=32)
