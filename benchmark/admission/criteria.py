@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.admission.evidence import Evidence
-from colift.benchmark.admission.jackknife import Spread, ratio_interval, spread
+from colift.benchmark.admission.jackknife import ratio_interval, spread
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.published import Compared
 from colift.benchmark.admission.swaps import FAMILY, swaps
@@ -20,7 +20,7 @@ PARTNER: Final = 1.5
 leaves at most two thirds of it."""
 
 INTERACTION: Final = 0.2
-"""Least share of the variance that is interaction of policy and person."""
+"""Least share of the interaction of policy and person in the variance between people."""
 
 IDLE: Final = 2.0
 """Least error of a robot that does nothing, as a multiple of two people's."""
@@ -87,21 +87,19 @@ def interaction(evidence: Evidence) -> Criterion:
     played = evidence.played.part(evidence.policies)
     shares = variance_shares(played.errors)
     left = [
-        [variance_shares(np.delete(played.errors, i, axis)).__dict__ for i in range(count)]
+        [variance_shares(np.delete(played.errors, i, axis)) for i in range(count)]
         for axis, count in enumerate(played.errors.shape[:2])
         if count > 2
     ]
-
-    def spread_of(name: str) -> Spread:
-        return spread(*([each[name] for each in some] for some in left))
-
-    low, high = spread_of("interaction").around(shares.interaction)
-    beyond = spread_of("variance").around(shares.variance)[0] > 0.0
+    share = spread(*([each.between_people for each in some] for some in left))
+    itself = spread(*([each.variance for each in some] for some in left))
+    low, high = share.around(shares.between_people)
+    beyond = itself.around(shares.variance)[0] > 0.0
     return Criterion(
         letter="b",
-        what="which policy is good depends on the person: share of the variance",
+        what="which policy is good depends on the person: share in the variance between people",
         bar=f"at least {INTERACTION:g}",
-        figure=shares.interaction,
+        figure=shares.between_people,
         ci95=(low, high),
         passed=low >= INTERACTION and beyond,
         detail=_shares_in_words(shares, len(played.players), len(played.people)),
@@ -239,7 +237,7 @@ def _without_people(played: Played, figure: Callable[[Played], float]) -> list[f
 
 def _shares_in_words(shares: VarianceShares, policies: int, people: int) -> str:
     return (
-        f"policy {shares.policy:.2f}, person {shares.person:.2f}, interaction "
+        f"of all variance: policy {shares.policy:.2f}, person {shares.person:.2f}, interaction "
         f"{shares.interaction:.2f}, of {policies} policies and {people} people, without the noise "
-        f"of single lifts; of what people change alone, interaction {shares.between_people:.2f}"
+        "of single lifts"
     )

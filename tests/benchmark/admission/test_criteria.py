@@ -40,7 +40,7 @@ def test_a_strong_interaction_is_found(criterion):
 
 def test_a_strong_interaction_has_a_large_share():
     found = interaction(evidence(errors(4, (10, 25, 4), suits=0.5, policy=0.2, person=0.2)))
-    assert found.ci95[0] < 25 / 33 < found.ci95[1]
+    assert found.ci95[0] < 25 / 29 < found.ci95[1]
 
 
 def pairs(seed, count, own=1.0):
