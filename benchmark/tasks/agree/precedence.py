@@ -29,6 +29,9 @@ SERVED: Final = 0.2
 """Time that the table rests at the partner's goal until the person takes that hurdle as passed
 [s]."""
 
+STUBBORN: Final = 1.0
+"""Insistence from which a person lets nobody go first [s]."""
+
 STAYED: Final = 0.2
 """Time that the table stays at the person's own hurdle until the person takes it as passed [s]."""
 
@@ -125,8 +128,9 @@ def mine(
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment
     to begin, or as soon as the partner has been at its own goal. A partner who is seen to go to a
-    goal of its own may go first, up to the latest moment. If both have begun, the person insists
-    for a while and then gives way, until the partner has been at its goal.
+    goal of its own may go first, up to the latest moment, unless the person is stubborn. If both
+    have begun, the person insists for a while and then gives way, until the partner has been at its
+    goal.
 
     ``apart`` is whether the partner goes to a goal of its own, ``period`` the time of a step [s].
     """
@@ -143,7 +147,8 @@ def mine(
     ahead = f.logical_and(f.logical_not(passed), hurdle.stop > 0.0)
     open_now = f.logical_and(given, f.logical_and(ahead, due))
 
-    begins = f.logical_or(f.logical_or(f.logical_not(apart), turn.served), latest <= 0.0)
+    free = f.logical_or(f.logical_not(apart), turn.served)
+    begins = f.logical_or(f.logical_or(free, latest <= 0.0), manner.insistence > STUBBORN)
     goes_on = f.logical_and(open_now, turn.begun)
     contested = f.where(apart, turn.conflict + period, 0.0)
     conflict = f.where(goes_on, contested, turn.conflict)

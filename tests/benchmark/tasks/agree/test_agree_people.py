@@ -147,6 +147,16 @@ def test_a_partner_on_the_way_is_let_go_first_until_it_is_too_late():
     assert first_turn(Deciding(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
+def test_the_stubborn_let_nobody_go_first():
+    assert first_turn(Deciding(0.0, 1.1), apart=True) == pytest.approx(-EARLY, abs=0.1)
+
+
+def test_the_eager_set_out_before_their_window_opens():
+    latest = 1.5 - NEEDED
+    early = -EARLY - 0.5 * (latest + EARLY)
+    assert first_turn(Deciding(-0.5, 1.0)) == pytest.approx(early, abs=0.1)
+
+
 def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_partner_is_done():
     deciding = Deciding(0.0, 0.35)
     assert deciding.mine(0.0, 1.5, apart=False)
