@@ -77,7 +77,8 @@ def admit_suite(
 
     A suite with conditions is tested for whether there is something to infer, by two criteria.
 
-    Exit code 1 if a criterion failed, hangs on one policy or person, or the control passes.
+    Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
+    the person. Exit code 1 if the first is not shown, or is shown for the control.
     """
     chosen = chosen_suite(suite, None, None, None)
     if tune_policies:
@@ -115,7 +116,7 @@ def admit_suite(
 def _finish(found: Admission, *, as_json: bool) -> None:
     """Print a result; end with the exit code 1 if the suite is not admitted."""
     if as_json:
-        print_json({**dataclasses.asdict(found), "passed": found.passed})
+        print_json({**dataclasses.asdict(found), "claims": found.claims, "passed": found.passed})
     else:
         show(_means(found), _criteria(found), _words(found))
     if not found.passed:
@@ -220,10 +221,13 @@ def _figure(each: Criterion) -> str:
 def _words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    if found.fragile is not None:
-        fragile = "; ".join(found.fragile) or "no verdict changes without any one policy or person"
-        lines.append(f"fragility: {fragile}")
-    if found.control is not None:
+    if found.fragile or found.control is not None:
+        fragile = "; ".join(map(str, found.fragile))
+        lines.append(
+            f"fragility: {fragile or 'no verdict changes without any one policy or person'}"
+        )
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")
+    claims = found.claims.items()
+    lines += [f"{claim}: {'holds' if holds else 'NOT SHOWN'}" for claim, holds in claims]
     return "\n".join(lines)

@@ -19,7 +19,7 @@ from colift.benchmark.admission.criteria import (
     rank_changes,
 )
 from colift.benchmark.admission.evidence import Evidence
-from colift.benchmark.admission.fragility import fragile_verdicts
+from colift.benchmark.admission.fragility import Fragile, fragile_verdicts
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.players import HOLD, acts_alone, other_settings, players
 from colift.benchmark.admission.published import NOT_COMPARED, compared
@@ -42,17 +42,25 @@ class Admission:
     means: Mapping[str, float]
     """Mean RMSE of each player [mm]."""
     criteria: tuple[Criterion, ...]
-    fragile: tuple[str, ...] | None
-    """Policies and people without whom a verdict would be another one, in words; None if the test
-    has no such question."""
+    fragile: tuple[Fragile, ...]
+    """Policies and people without whom a verdict would be another one."""
     control: "Admission | None"
     """The result of the negative control; None if it is the control."""
 
     @property
+    def claims(self) -> dict[str, bool]:
+        """Whether each claim holds: no criterion failed, and none hangs on one policy or person."""
+        hanging = {each.letter for each in self.fragile}
+        claims = dict.fromkeys((each.claim for each in self.criteria), True)
+        for each in self.criteria:
+            claims[each.claim] &= each.passed is not False and each.letter not in hanging
+        return claims
+
+    @property
     def passed(self) -> bool:
-        """Whether no criterion failed, no verdict hangs on one player, and the control failed."""
-        criteria = all(each.passed is not False for each in self.criteria)
-        return criteria and not self.fragile and (self.control is None or not self.control.passed)
+        """Whether the suite is admitted: its first claim holds, and not for the control."""
+        control = self.control is not None and self.control.passed
+        return next(iter(self.claims.values())) and not control
 
 
 def cast(suite: Suite) -> dict[str, AgentSpec]:

@@ -25,12 +25,19 @@ INTERACTION: Final = 0.2
 IDLE: Final = 2.0
 """Least error of a robot that does nothing, as a multiple of two people's."""
 
+COORDINATION: Final = "the robot needs its partner"
+ADAPTATION: Final = "the robot needs to know the person"
+INFERENCE: Final = "the robot needs to find out what it is not told"
+"""What a suite can claim."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """One criterion, as measured."""
 
     letter: str
+    claim: str
+    """The claim that it tests."""
     what: str
     """The condition in words."""
     bar: str
@@ -60,6 +67,7 @@ def needs_partner(evidence: Evidence) -> Criterion:
 
     stated = Criterion(
         letter="a",
+        claim=COORDINATION,
         what="acting alone costs: best robot that is blind to the partner, over best known",
         bar=f"at least {PARTNER:g}",
         detail="no robot that is blind to the partner was played",
@@ -97,6 +105,7 @@ def interaction(evidence: Evidence) -> Criterion:
     beyond = itself.around(shares.variance)[0] > 0.0
     return Criterion(
         letter="b",
+        claim=ADAPTATION,
         what="which policy is good depends on the person: share in the variance between people",
         bar=f"at least {INTERACTION:g}",
         figure=shares.between_people,
@@ -120,6 +129,7 @@ def rank_changes(evidence: Evidence) -> Criterion:
     )
     return Criterion(
         letter="c",
+        claim=ADAPTATION,
         what="two policies exist, each better with some people: error of the worse, over the other",
         bar="above 1",
         figure=best.least.ratio,
@@ -141,6 +151,7 @@ def conventions(played: NDArray[np.float64] | None) -> Criterion:
     """
     stated = Criterion(
         letter="d",
+        claim=COORDINATION,
         what="pairs that learned apart fail with each other: error across, over own",
         bar="above 1",
         detail="no pair was trained for this test",
@@ -181,11 +192,12 @@ def like_people(compared: Compared | None, why: str) -> Criterion:
     """
     what = "two simulated people are like real ones"
     if compared is None:
-        return Criterion(letter="e", what=what, bar="as published", detail=why)
+        return Criterion(letter="e", claim=COORDINATION, what=what, bar="as published", detail=why)
     published, figure = compared.published, compared.figure
     low, high = spread(compared.without_person).around(figure)
     return Criterion(
         letter="e",
+        claim=COORDINATION,
         what=f"{what}: {published.what}",
         bar=published.interval,
         figure=figure,
@@ -208,6 +220,7 @@ def no_free_ride(evidence: Evidence) -> Criterion:
     found = played.means
     return Criterion(
         letter="f",
+        claim=COORDINATION,
         what="nobody earns by standing still or by dropping the table: error of standing still, "
         "over that of two people",
         bar=f"at least {IDLE:g}",

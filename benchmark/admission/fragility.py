@@ -1,13 +1,28 @@
 """The fragility of verdicts: whether one policy or one person decides any of them."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from colift.benchmark.admission.criteria import Criterion, of_evidence
 from colift.benchmark.admission.evidence import Evidence
 
 
-def fragile_verdicts(evidence: Evidence, criteria: Sequence[Criterion]) -> tuple[str, ...]:
-    """Return what changes a verdict if it is left out, in words; nothing should.
+@dataclass(frozen=True, kw_only=True)
+class Fragile:
+    """A verdict that is another one without a policy or a person."""
+
+    letter: str
+    without: str
+    passes: bool
+    """Whether the criterion passes without it."""
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        return f"without {self.without}, {self.letter} {'passes' if self.passes else 'fails'}"
+
+
+def fragile_verdicts(evidence: Evidence, criteria: Sequence[Criterion]) -> tuple[Fragile, ...]:
+    """Return what changes a verdict if it is left out; nothing should.
 
     Each policy and reference, with its other settings, and each person is left out in turn. Of two
     policies or people nobody can be left out.
@@ -20,7 +35,7 @@ def fragile_verdicts(evidence: Evidence, criteria: Sequence[Criterion]) -> tuple
         The criteria with all of it; those that do not follow from it are not judged anew.
     """
     verdicts = {each.letter: each.passed for each in criteria}
-    found = []
+    found: list[Fragile] = []
     for name in evidence.causal if len(evidence.policies) > 2 else ():
         found += _changed(name, verdicts, evidence.without(policy=name))
     for person in evidence.people if len(evidence.people) > 3 else ():
@@ -28,9 +43,9 @@ def fragile_verdicts(evidence: Evidence, criteria: Sequence[Criterion]) -> tuple
     return tuple(found)
 
 
-def _changed(name: str, verdicts: dict[str, bool | None], evidence: Evidence) -> list[str]:
+def _changed(name: str, verdicts: dict[str, bool | None], evidence: Evidence) -> list[Fragile]:
     return [
-        f"without {name}, {each.letter} {'passes' if each.passed else 'fails'}"
+        Fragile(letter=each.letter, without=name, passes=each.passed)
         for each in of_evidence(evidence)
         if each.passed is not None and each.passed != verdicts[each.letter]
     ]

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.admission.assessment import Admission
-from colift.benchmark.admission.criteria import Criterion
+from colift.benchmark.admission.criteria import INFERENCE, Criterion
 from colift.benchmark.admission.jackknife import ratio_interval
 from colift.benchmark.admission.played import Played
 from colift.benchmark.references.oracle import ORACLE, oracle_run
@@ -81,6 +81,7 @@ def inference_of(
                 UNTOLD,
                 Criterion(
                     letter="a",
+                    claim=INFERENCE,
                     what="one delay is not enough: error of a network that knows no other, over "
                     "that of one trained on the suite's",
                     bar=f"at least {SPECIALIST:g}",
@@ -94,6 +95,7 @@ def inference_of(
                 UNTOLD,
                 Criterion(
                     letter="b",
+                    claim=INFERENCE,
                     what="there is something to infer: error of a network that is told latency and "
                     "habits, over that of one that is told nothing",
                     bar=f"at most {KNOWING:g}",
@@ -102,7 +104,7 @@ def inference_of(
                 most=KNOWING,
             ),
         ),
-        fragile=None,
+        fragile=(),
         control=None,
     )
 
@@ -133,6 +135,7 @@ def _ratio(
     )
     return Criterion(
         letter=stated.letter,
+        claim=stated.claim,
         what=stated.what,
         bar=stated.bar,
         detail=f"{one} {first:.2f} mm, {other} {second:.2f} mm",
