@@ -221,11 +221,11 @@ def _figure(each: Criterion) -> str:
 def _words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    if found.fragile or found.control is not None:
-        fragile = "; ".join(map(str, found.fragile))
-        lines.append(
-            f"fragility: {fragile or 'no verdict changes without any one policy or person'}"
-        )
+    if found.fragile:
+        lines.append(f"fragility: {'; '.join(map(str, found.fragile))}")
+    elif found.control is not None:
+        lines.append("fragility: no verdict changes without any one policy or person")
+    if found.control is not None:
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")
     claims = found.claims.items()
