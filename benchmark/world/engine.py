@@ -23,7 +23,8 @@ class BulletEngine(Engine):
 Vector = tuple[float, float, float]
 
 DIRECT: Final = {"globalCFM": 1e-9, "numSolverIterations": 1}
-"""Settings of Dantzig's solver. Its pivoting solves the constraints of a step exactly, up to a compliance of 1e-9.
+"""Settings of Dantzig's solver: it pivots, and so solves the constraints of a step exactly, up to a
+compliance of 1e-9.
 
 Arm and table form a closed loop with redundant constraints: without compliance the problem is
 singular, and the engine falls back to iterations. A compliance ten times larger or smaller changes
