@@ -58,11 +58,11 @@ def needs_partner(evidence: Evidence) -> Criterion:
     blind = [name for name in evidence.causal if name in evidence.alone]
 
     def best(played: Played, names: list[str]) -> str:
-        found = played.means
+        found = played.typical
         return min(names, key=lambda name: found[name])
 
     def ratio(played: Played) -> float:
-        found = played.means
+        found = played.typical
         return found[best(played, blind)] / min(found.values())
 
     stated = Criterion(
@@ -74,7 +74,7 @@ def needs_partner(evidence: Evidence) -> Criterion:
     )
     if not blind:
         return stated
-    figure, found = ratio(means), means.means
+    figure, found = ratio(means), means.typical
     alone, known = best(means, blind), best(means, list(means.players))
     low, high = ratio_interval(figure, _without_people(means, ratio))
     return replace(
@@ -212,12 +212,12 @@ def no_free_ride(evidence: Evidence) -> Criterion:
     played = evidence.played.part((evidence.idle, evidence.two_people))
 
     def ratio(some: Played) -> float:
-        return some.means[evidence.idle] / some.means[evidence.two_people]
+        return some.typical[evidence.idle] / some.typical[evidence.two_people]
 
     figure = ratio(played)
     low, high = ratio_interval(figure, _without_people(played, ratio))
     worst = float(played.errors[1].max())
-    found = played.means
+    found = played.typical
     return Criterion(
         letter="f",
         claim=COORDINATION,

@@ -82,6 +82,15 @@ class Played:
         return means
 
     @property
+    def typical(self) -> dict[str, float]:
+        """Geometric mean of each player's errors [mm]: the ratio of two is that of their lifts.
+
+        A person with whom everybody fails is one person here, and most of an arithmetic mean.
+        """
+        means: list[float] = np.exp(np.log(self.errors).mean(axis=(1, 2))).tolist()
+        return dict(zip(self.players, means, strict=True))
+
+    @property
     def means(self) -> dict[str, float]:
         """Mean error of each player [mm]."""
         means: list[float] = self.by_person.mean(axis=-1).tolist()
