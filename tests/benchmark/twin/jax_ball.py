@@ -92,7 +92,7 @@ def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
 @pytest.mark.slow
 def test_an_agent_that_amplifies_differences_has_the_same_mean():
     drawn = stack_touch([draw_touch(scenario, seed) for scenario, seed in MANY])
-    make = partial(BallGame, BallGameParameters(steepest=0.07))
+    make = partial(BallGame, parameters=BallGameParameters(steepest=0.07))
     (engine, _), twin = in_engine(make, MANY), agents_in_twin(TWIN, make, drawn)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
