@@ -42,11 +42,16 @@ class PolicyClaim:
     limit: float
     least: bool = False
     """Whether the limit is the least allowed value; otherwise it is the largest."""
+    chance: bool = False
+    """Whether a value beyond the limit that may be chance, by its interval, is no objection."""
 
     @property
     def holds(self) -> bool:
         """Whether the value is within its limit."""
-        return self.value >= self.limit if self.least else self.value <= self.limit
+        value = self.value
+        if self.chance and self.ci95 is not None:
+            value = self.ci95[1] if self.least else self.ci95[0]
+        return value >= self.limit if self.least else value <= self.limit
 
 
 def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
@@ -92,7 +97,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
 
 
 def _kinder(by_name: Mapping[str, ScoreTable]) -> Iterator[PolicyClaim]:
-    """Yield the claims that it moves more smoothly, with no more force at the human's hands."""
+    """Yield the claims that it moves as smoothly, with no more force at the human's hands."""
     for name in ("blend", "reactive"):
         difference = by_name[POLICY].against(by_name[name], "sparc").difference
         yield PolicyClaim(
@@ -101,6 +106,7 @@ def _kinder(by_name: Mapping[str, ScoreTable]) -> Iterator[PolicyClaim]:
             ci95=difference.ci95,
             limit=0.0,
             least=True,
+            chance=True,
         )
     for name in ("anticipate", "blend"):
         difference = by_name[POLICY].against(by_name[name], "human_force_n").difference
@@ -109,4 +115,5 @@ def _kinder(by_name: Mapping[str, ScoreTable]) -> Iterator[PolicyClaim]:
             value=difference.mean,
             ci95=difference.ci95,
             limit=0.0,
+            chance=True,
         )
