@@ -98,22 +98,22 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
 
 def _kinder(by_name: Mapping[str, ScoreTable]) -> Iterator[PolicyClaim]:
     """Yield the claims that it moves as smoothly, with no more force at the human's hands."""
-    for name in ("blend", "reactive"):
-        difference = by_name[POLICY].against(by_name[name], "sparc").difference
+    smoothness, force = (
+        "SPARC minus that of {}",
+        "rms force at the human's hands minus that with {} [N]",
+    )
+    for metric, text, name in (
+        ("sparc", smoothness, "blend"),
+        ("sparc", smoothness, "reactive"),
+        ("human_force_n", force, "anticipate"),
+        ("human_force_n", force, "blend"),
+    ):
+        difference = by_name[POLICY].against(by_name[name], metric).difference
         yield PolicyClaim(
-            text=f"SPARC minus that of {name}, paired",
+            text=f"{text.format(name)}, paired",
             value=difference.mean,
             ci95=difference.ci95,
             limit=0.0,
-            least=True,
-            chance=True,
-        )
-    for name in ("anticipate", "blend"):
-        difference = by_name[POLICY].against(by_name[name], "human_force_n").difference
-        yield PolicyClaim(
-            text=f"rms force at the human's hands minus that with {name} [N], paired",
-            value=difference.mean,
-            ci95=difference.ci95,
-            limit=0.0,
+            least=metric == "sparc",
             chance=True,
         )
