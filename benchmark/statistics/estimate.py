@@ -15,6 +15,7 @@ from colift.benchmark.statistics.samples import FloatArray, Interval, paired, sa
 from colift.benchmark.statistics.student import t_quantile
 from colift.benchmark.statistics.superiority import share_better
 from colift.benchmark.statistics.units import Units
+from colift.robots.arithmetic import each
 from numpy.typing import ArrayLike
 
 CONFIDENCE: Final = 0.95
@@ -132,8 +133,7 @@ def log_ratios(numerator: ArrayLike, denominator: ArrayLike) -> FloatArray:
         if values.min() < 0.0:
             where = int(values.argmin())
             raise InputError(f"{name}[{where}] is {values[where]}; a ratio needs errors from 0 on")
-    found: FloatArray = np.log(np.maximum(a, LEAST)) - np.log(np.maximum(b, LEAST))
-    return found
+    return each(math.log, np.maximum(a, LEAST)) - each(math.log, np.maximum(b, LEAST))
 
 
 def geometric_ratio(numerator: ArrayLike, denominator: ArrayLike, units: Units) -> Estimate:

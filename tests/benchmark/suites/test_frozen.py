@@ -18,7 +18,7 @@ from colift.benchmark.training.demonstrations import LIFTS
 from colift.benchmark.training.task_model import TUNING_LIFTS, TUNING_SEED
 
 FROZEN = {
-    "agree-v1": "729c2f27cd982068",
+    "agree-v1": "8be3f3907d590b85",
     "ball-v1": "d8910584b13585aa",
     "intent-v1": "a0aeec6659923fee",
     "paper-v1": "8ea792f9a1017b20",
