@@ -14,10 +14,9 @@ from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
 from colift.benchmark.tasks.level.task import LEVEL
-from colift.benchmark.training import apg_settings, cem, ppo_settings
+from colift.benchmark.training import apg_settings, cem
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary
-from colift.benchmark.training.ppo_settings import CoPlaySettings, PpoSettings, SelfPlaySettings
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Jobs
@@ -120,38 +119,6 @@ add(
     jobs=False,
     task={"help": "Task: level, or one that is stated by rules."},
 )
-add(
-    ppo_settings.NAME,
-    "ppo:train_ppo",
-    PpoSettings,
-    "updates",
-    "pool",
-    "lifts",
-    meaning="Train a network by proximal policy optimisation, on the twin (extra: train).",
-)
-add(
-    ppo_settings.SELF_PLAY,
-    "self_play:train_self_play",
-    SelfPlaySettings,
-    "updates",
-    "lifts",
-    "haste",
-    meaning="Train by PPO with a person who also learns, without colift's behaviours (extra: "
-    "train).",
-)
-add(
-    ppo_settings.CO_PLAY,
-    "co_play:train_co_play",
-    CoPlaySettings,
-    "population",
-    "updates",
-    "lifts",
-    "haste",
-    meaning="Train with a population of people who learned by self-play (extra: train).",
-    total=lambda settings: (settings.population + 1) * settings.updates,
-    updates={"help": "Updates per training, the last one included."},
-)
-
 
 def train_all(
     trainer: str, settings: Any, seeds: int, out: Path, total: int, jobs: int | None, train: Train

@@ -6,6 +6,7 @@ import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
+from colift.benchmark.episode.reward_unit import UNIT
 from colift.benchmark.episode.task import Task
 from colift.benchmark.tasks.level.task import Level
 from numpy.typing import NDArray
@@ -17,11 +18,6 @@ SCORE: Final = "score"
 """Reward by the square of the error in all frames of a step [cm2]; see :func:`score_rewards`."""
 
 REWARDS: Final = (TASK_REWARD, SCORE)
-
-UNIT: Final = 1e-4
-"""Square error that costs 1 [m2]: a step with the ends 10 mm apart, about the error of two
-humans."""
-
 
 @runtime_checkable
 class Scored(Protocol):

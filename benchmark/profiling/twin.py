@@ -13,9 +13,11 @@ from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.twin.lifts import Lifts, draw_lifts, some
+from colift.benchmark.tasks.level.task import BEHAVIOURS, LEVEL
+from colift.benchmark.twin.drawing import draw_lift, stack
+from colift.benchmark.twin.lifts import Lifts, some
 from colift.benchmark.twin.rollout import rollout
+from colift.benchmark.twin.task_twin import TaskTwin
 
 UNITS: Final = 64
 """Units of each of the two hidden layers of the network in the loop."""
@@ -69,16 +71,12 @@ def twin_speed() -> dict[str, float]:
 
 
 def _drawn() -> Lifts:
-    lifts = draw_lifts(
-        (make_scenario(BEHAVIOURS[i % len(BEHAVIOURS)], f"draw-{_SEED + i}"), _SEED + i)
-        for i in range(DRAWN)
-    )
-    return lifts._replace(
-        reference=lifts.reference[:STEPS],
-        seen_target=lifts.seen_target[:STEPS],
-        noise=lifts.noise[:STEPS],
-        steps=jnp.full(DRAWN, STEPS),
-    )
+    scenarios = [
+        make_scenario(BEHAVIOURS[i % len(BEHAVIOURS)], f"draw-{_SEED + i}") for i in range(DRAWN)
+    ]
+    longest = STEPS * scenarios[0].control_period
+    drawn = [draw_lift(each, _SEED + i, longest=longest) for i, each in enumerate(scenarios)]
+    return stack(drawn)._replace(steps=jnp.full(DRAWN, STEPS))
 
 
 def _layers() -> Layers:
@@ -103,7 +101,7 @@ def _error(layers: Layers, lifts: Lifts) -> jax.Array:
         weight, bias = layers[-1]
         return None, view[0] - view[3] + 0.02 * (weight @ values + bias)[0]
 
-    return rollout(policy, None, lifts).rmse_mm.mean()
+    return rollout(TaskTwin(LEVEL, LEVEL.person), policy, None, lifts).rmse_mm.mean()
 
 
 def _engine_speed(lift: Lift) -> float:

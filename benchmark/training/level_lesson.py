@@ -21,9 +21,10 @@ from colift.agents.submissions import recurrent as submission
 from colift.benchmark.training.anticipation import FIRST_SEED
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
-from colift.benchmark.training.pool import LearningBatch, Pool, draw_batch, draw_pool
+from colift.benchmark.training.pool import TWIN, LearningBatch, Pool, draw_batch, draw_pool
 from colift.benchmark.training.validation import validation_error
-from colift.benchmark.twin.rollout import recurrent, rollout
+from colift.benchmark.twin.policy import recurrent
+from colift.benchmark.twin.rollout import rollout
 
 
 class LevelLesson:
@@ -77,7 +78,7 @@ def batch_loss(
 ) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
-    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
+    found = rollout(TWIN, policy, memory, batch.lifts)
     force = batch.common * found.force_n
     cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
     return (batch.weight * cost).mean(), found.rmse_mm.mean()

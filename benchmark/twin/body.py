@@ -87,7 +87,7 @@ def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
     Parameters
     ----------
     history
-        (DEPTH, n) values, newest first.
+        Values, newest first, of at least :data:`DEPTH` frames.
     delay
         (n,) delays in frames, of at least ``frames - 1``.
     frames
@@ -100,8 +100,8 @@ def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
 
 
 def pushed(history: jax.Array, new: jax.Array) -> jax.Array:
-    """Return a history (DEPTH, n), newest first, after new frames (frames, n), oldest first."""
-    return jnp.concatenate((new[::-1], history[: DEPTH - len(new)]))
+    """Return a history, newest first, after new frames (frames, ...), oldest first."""
+    return jnp.concatenate((new[::-1], history[: len(history) - len(new)]))
 
 
 def wanted_shift(body: Body, difference: jax.Array, force: jax.Array) -> jax.Array:

@@ -65,6 +65,11 @@ class PairPlant(NamedTuple):
     far_forces: jax.Array
     """History of the second person's force, beyond the share of the weight [N]."""
 
+    @property
+    def hand(self) -> jax.Array:
+        """Height of the second person's hands [m]."""
+        return self.heights[0] + self.differences[0]
+
 
 def pair_at_rest(count: int) -> PairPlant:
     """Return lifts at rest."""

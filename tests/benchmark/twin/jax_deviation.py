@@ -6,9 +6,9 @@ from colift.agents.policies.extrapolate import Extrapolate
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.training.pool import straight_line
+from colift.benchmark.training.pool import TWIN, straight_line
 from colift.benchmark.twin import arm, body, deviation, pair, plant
-from colift.benchmark.twin.lifts import carried_out, stack
+from colift.benchmark.twin.drawing import draw_lifts
 from colift.benchmark.twin.rollout import rollout
 
 ONE = deviation.PEOPLE[:1]
@@ -28,7 +28,7 @@ def test_two_humans_are_within_the_limits():
 def test_the_force_at_the_humans_hands_is_that_of_the_engine():
     scenario = make_scenario("pause", "draw-190001")
     engine = run_episode(Lift(scenario), Extrapolate(), 190_001).scores["human_force_n"]
-    twin = rollout(straight_line, jnp.zeros(1), stack([carried_out(scenario, 190_001)]))
+    twin = rollout(TWIN, straight_line, jnp.zeros(1), draw_lifts([(scenario, 190_001)]))
     assert float(twin.force_n[0]) == pytest.approx(engine, rel=0.01)
 
 

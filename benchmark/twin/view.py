@@ -1,4 +1,4 @@
-"""The lifts of a task with touch between two steps, as rules see them."""
+"""The lifts between two steps, as rules see them."""
 
 from typing import Any, NamedTuple
 
@@ -8,14 +8,16 @@ from colift.agents.humans.hand import HandMemory
 from colift.agents.rules import Drawn
 from colift.benchmark.twin.ball_plant import BallPlant
 from colift.benchmark.twin.haptic_plant import HapticPlant
-from colift.benchmark.twin.touch_lifts import TouchLifts
+from colift.benchmark.twin.lifts import Lifts
+from colift.benchmark.twin.plant import Plant
 from colift.benchmark.world.table import WEIGHT_SHARE
 
 
-class TouchState(NamedTuple):
-    """The state of n lifts between two steps; histories are (DEPTH, n), newest first."""
+class LiftState(NamedTuple):
+    """The state of n lifts between two steps; histories have a first axis of frames, newest
+    first."""
 
-    table: BallPlant | HapticPlant
+    table: Plant | HapticPlant | BallPlant
     command: jax.Array
     """(n,) command of the far hands [m]."""
     hand: HandMemory[jax.Array]
@@ -27,28 +29,30 @@ class TouchState(NamedTuple):
     lost: jax.Array
     """(n,) 1 if the lift is lost, else 0."""
     step: jax.Array
-    """() number of the coming step."""
+    """Number of the coming step: one for all lifts (), or one for each (n,)."""
 
     @property
-    def haptic(self) -> HapticPlant:
-        """The table without a ball."""
-        return self.table.haptic if isinstance(self.table, BallPlant) else self.table
+    def plant(self) -> Plant:
+        """The table without touch and ball."""
+        table = self.table.haptic if isinstance(self.table, BallPlant) else self.table
+        return table.plant if isinstance(table, HapticPlant) else table
 
 
-class TouchView:
-    """The :class:`.View` of n lifts."""
+class LiftView:
+    """The :class:`.View` of n lifts; ``ages`` are those of the motion capture's samples."""
 
-    def __init__(self, state: TouchState, lifts: TouchLifts) -> None:
+    def __init__(self, state: LiftState, lifts: Lifts, ages: jax.Array) -> None:
         self._state = state
         self.drawn: Drawn[Any] = lifts.drawn
         self.frame = state.step * lifts.frames
         self.visual, self.haptic = lifts.body.seen, lifts.body.felt
-        self.latency = lifts.latency
-        self.hand, self.command = state.haptic.plant.hand, state.command
+        self.latency = ages
+        self.hand, self.command = state.plant.hand, state.command
 
     def seen(self, name: str, age: Any) -> jax.Array:
         """Return a read-out (n,) of some frames ago; see :meth:`.View.seen`."""
-        plant, touch = self._state.haptic.plant, self._state.haptic.touch
+        table, plant = self._state.table, self._state.plant
+        haptic = table.haptic if isinstance(table, BallPlant) else table
         match name:
             case "human_end":
                 return aged(plant.heights, age)
@@ -56,13 +60,14 @@ class TouchView:
                 return aged(plant.heights, age) + aged(plant.differences, age)
             case "human_force":
                 return aged(plant.forces, age) + WEIGHT_SHARE
-            case "robot_force":
-                return aged(touch[::-1, 0], age) + WEIGHT_SHARE
-            case "robot_torque":
-                return aged(touch[::-1, 1], age)
+            case "robot_force" if isinstance(haptic, HapticPlant):
+                return aged(haptic.touch[::-1, 0], age) + WEIGHT_SHARE
+            case "robot_torque" if isinstance(haptic, HapticPlant):
+                return aged(haptic.touch[::-1, 1], age)
+            case "ball_place" if isinstance(table, BallPlant):
+                return aged(table.places, age)
             case "ball_place":
-                table = self._state.table
-                return aged(table.places, age) if isinstance(table, BallPlant) else 0.0 * self.hand
+                return 0.0 * self.hand
         return aged(getattr(self._state.intentions, name), age)
 
 

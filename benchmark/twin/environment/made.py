@@ -1,0 +1,69 @@
+"""Environments of the twin by the name of a task."""
+
+from collections.abc import Callable
+from typing import Any, Final
+
+from colift.base.errors import InputError
+from colift.benchmark.environment.drawing import ANY, DRAW, make_drawing
+from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
+from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.robots.robot import DEFAULT_ROBOT
+from colift.benchmark.suites.catalogue import TASK
+from colift.benchmark.twin.drawing import common_rules, draw_lift, stack
+from colift.benchmark.twin.environment.environment import ROBOT, TwinEnv
+from colift.benchmark.twin.environment.pool import LiftPool
+from colift.benchmark.twin.environment.spaces import Box
+from colift.benchmark.twin.task_twin import TaskTwin
+
+LIFTS: Final = 1000
+"""Number of lifts from which an environment draws."""
+
+
+def make(
+    task: str = TASK,
+    *,
+    agents: str = ROBOT,
+    behaviour: str = ANY,
+    subject: str = DRAW,
+    control_period: float = CONTROL_PERIOD,
+    latency: float = LATENCY,
+    lifts: int = LIFTS,
+    seed: int = 0,
+    box: Callable[..., Any] = Box,
+    single: bool = False,
+) -> TwinEnv:
+    """Return the environment of a task.
+
+    Parameters
+    ----------
+    task
+        Its name: ``"level"``, or that of a task that is stated by rules.
+    agents
+        ``"robot"``: the person is that of the task; ``"both"``: the person learns, too.
+    behaviour, subject, control_period, latency
+        As for :func:`.parallel_env`; by default behaviours and people are drawn.
+    lifts
+        Number of lifts from which the environment draws; they are played again with other actions.
+    seed
+        Draws these lifts.
+    box, single
+        See :class:`.TwinEnv`.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range, or the twin does not model the task.
+    """
+    if agents not in (ROBOT, "both"):
+        raise InputError(f"agents must be 'robot' or 'both', got {agents!r}")
+    if lifts < 1:
+        raise InputError(f"lifts must be at least 1, got {lifts}")
+    drawing = make_drawing(behaviour, subject, DEFAULT_ROBOT, control_period, latency, task)
+    if drawing is None:
+        raise InputError("the twin draws its lifts: behaviour 'any', subject 'draw', or both")
+    chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(lifts)]
+    rules = common_rules(drawing.scenarios)
+    pool = LiftPool(stack([draw_lift(scenario, each, rules) for scenario, each in chosen]))
+    return TwinEnv(
+        TaskTwin.of(drawing.scenarios), pool, learns=agents != ROBOT, box=box, single=single
+    )
