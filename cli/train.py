@@ -120,6 +120,7 @@ add(
     task={"help": "Task: level, or one that is stated by rules."},
 )
 
+
 def train_all(
     trainer: str, settings: Any, seeds: int, out: Path, total: int, jobs: int | None, train: Train
 ) -> None:

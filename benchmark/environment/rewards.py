@@ -19,6 +19,7 @@ SCORE: Final = "score"
 
 REWARDS: Final = (TASK_REWARD, SCORE)
 
+
 @runtime_checkable
 class Scored(Protocol):
     """A task whose score is not that of :class:`.Level`."""

@@ -1,7 +1,7 @@
 """The vector environment on the twin: thousands of lifts at once, for one agent, the robot."""
 
 from functools import partial
-from typing import Any, Final
+from typing import Any
 
 import jax
 import jax.numpy as jnp

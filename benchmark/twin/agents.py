@@ -86,9 +86,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
             pair = advance_pair(pair, drawn.body, body, references[frames], far[frames])
             squares = squares + (pair.differences[:many] ** 2).sum(axis=0)
         intentions = jax.tree.map(pushed, state.intentions, intention)
-        after = LiftState(
-            pair, state.command, hand, memory, intentions, state.lost, state.step + 1
-        )
+        after = LiftState(pair, state.command, hand, memory, intentions, state.lost, state.step + 1)
         return after, squares
 
     state = twin.at_rest(drawn)._replace(table=pair_at_rest(count))

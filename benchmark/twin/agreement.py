@@ -16,8 +16,8 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.tasks.touch import Ends, Touch, frame_of
 from colift.benchmark.twin.columns import LiftSeries, columns
-from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.drawing import check_modelled
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.view import aged
 from colift.benchmark.world import HISTORY_FRAMES
 

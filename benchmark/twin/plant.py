@@ -56,7 +56,7 @@ class Moving(NamedTuple):
 
 
 class Plant(NamedTuple):
-    """The state of n lifts; histories are (depth, n), newest first, of at least ``DEPTH`` frames."""
+    """The state of n lifts; histories are (depth, n), newest first."""
 
     moving: Moving
     heights: jax.Array

@@ -126,7 +126,10 @@ class TaskTwin:
         added
             Additions by learning people; None adds nothing.
         """
-        size, (memory, intention, hand, references) = lifts.frames, self.intended(state, lifts, share)
+        size, (memory, intention, hand, references) = (
+            lifts.frames,
+            self.intended(state, lifts, share),
+        )
         driven = self.person.drive(LIFTS, lifts.drawn, intention, references)
         differences, wrist = (jnp.broadcast_to(each, references.shape) for each in driven)
         if added is not None:
@@ -153,11 +156,10 @@ class TaskTwin:
         self, state: LiftState, lifts: Lifts, share: Share
     ) -> tuple[Any, Any, HandMemory[jax.Array], jax.Array]:
         """Return the people's memory after a step, their intention in it, their hands after it,
-        and the heights (f, n) that these pull towards [m]."""
+        and the heights (f, n) that these pull towards [m].
+        """
         view = LiftView(state, lifts, share.ages)
-        memory, intention = self.person.intend(
-            LIFTS, lifts.drawn, state.memory, view, lifts.frames
-        )
+        memory, intention = self.person.intend(LIFTS, lifts.drawn, state.memory, view, lifts.frames)
         noise = HandNoise(share.gain, share.tremor)
         hand, references = carry_out(LIFTS, state.hand, view, intention.target, noise)
         return memory, intention, hand, cast(jax.Array, references)
@@ -192,7 +194,8 @@ class TaskTwin:
 
     def squares(self, state: LiftState, lifts: Lifts, ends: Ends) -> Sequence[jax.Array]:
         """Return squares of the error in the frames of a step (f, n) [m2]; ``state`` is before
-        it."""
+        it.
+        """
         if not isinstance(self.task, Touch):
             return ((ends.near - ends.far) ** 2,)
         due = jax.tree.map(

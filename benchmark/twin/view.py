@@ -15,7 +15,8 @@ from colift.benchmark.world.table import WEIGHT_SHARE
 
 class LiftState(NamedTuple):
     """The state of n lifts between two steps; histories have a first axis of frames, newest
-    first."""
+    first.
+    """
 
     table: Plant | HapticPlant | BallPlant
     command: jax.Array

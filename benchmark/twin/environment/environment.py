@@ -225,9 +225,7 @@ class TwinEnv:
 
     def renewed(self, state: State, ended: jax.Array, fresh: jax.Array) -> State:
         """Return lifts, of which those that have ended begin anew as ``fresh`` ones (n,)."""
-        return jax.tree.map(
-            lambda new, old: jnp.where(ended, new, old), self.begun(fresh), state
-        )
+        return jax.tree.map(lambda new, old: jnp.where(ended, new, old), self.begun(fresh), state)
 
     def _many(self, fresh: jax.Array, state: State, robot: jax.Array, human: jax.Array) -> Any:
         """Return observations, states, rewards, ends and scores [mm] of n lifts after a step."""

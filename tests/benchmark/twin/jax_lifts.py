@@ -10,9 +10,9 @@ from colift.agents.policies.copy import Copy
 from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.level.task import Level
-from colift.benchmark.twin.agents import play_agents
 from colift.benchmark.training.pool import TWIN
 from colift.benchmark.training.sensing import OWN, with_losses
+from colift.benchmark.twin.agents import play_agents
 from colift.benchmark.twin.drawing import draw_lifts
 from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin

@@ -14,7 +14,6 @@ from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.ball.person import Steers
 from colift.benchmark.twin.agreement import CLOSE, largest_difference
 from colift.benchmark.twin.drawing import draw_lift
-from colift.benchmark.twin.task_twin import TaskTwin
 
 WITH_RULES = [name for name in own_entries(TASKS) if make_task(name).touch]
 
