@@ -155,8 +155,9 @@ class TaskTwin:
     def intended(
         self, state: LiftState, lifts: Lifts, share: Share
     ) -> tuple[Any, Any, HandMemory[jax.Array], jax.Array]:
-        """Return the people's memory after a step, their intention in it, their hands after it,
-        and the heights (f, n) that these pull towards [m].
+        """Return the people's memory after a step, their intention in it, and their hands.
+
+        The last are their memory after the step, and the heights (f, n) that they pull towards [m].
         """
         view = LiftView(state, lifts, share.ages)
         memory, intention = self.person.intend(LIFTS, lifts.drawn, state.memory, view, lifts.frames)
@@ -193,9 +194,7 @@ class TaskTwin:
         return Missed(squares, left)
 
     def squares(self, state: LiftState, lifts: Lifts, ends: Ends) -> Sequence[jax.Array]:
-        """Return squares of the error in the frames of a step (f, n) [m2]; ``state`` is before
-        it.
-        """
+        """Return squares of the error in the frames (f, n) of a step from ``state`` on [m2]."""
         if not isinstance(self.task, Touch):
             return ((ends.near - ends.far) ** 2,)
         due = jax.tree.map(

@@ -14,9 +14,7 @@ from colift.benchmark.world.table import WEIGHT_SHARE
 
 
 class LiftState(NamedTuple):
-    """The state of n lifts between two steps; histories have a first axis of frames, newest
-    first.
-    """
+    """The state of n lifts between two steps; histories are (depth, n), newest first."""
 
     table: Plant | HapticPlant | BallPlant
     command: jax.Array
