@@ -6,12 +6,14 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from colift.agents.actions import action_limit
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import ANY, DRAW
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.suites.catalogue import TASK
 from colift.benchmark.twin.environment.environment import ADDED, ROBOT, State, TwinEnv
-from colift.benchmark.twin.environment.made import LIFTS, make
+from colift.benchmark.twin.environment.made import LIFTS, drawing_of, drawn_pool
+from colift.benchmark.twin.task_twin import TaskTwin
 from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
@@ -62,20 +64,15 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
     ) -> None:
         if num_envs < 1:
             raise InputError(f"num_envs must be at least 1, got {num_envs}")
-        self.num_envs = num_envs
-        self._make = partial(
-            make,
-            task,
-            behaviour=behaviour,
-            subject=subject,
-            control_period=control_period,
-            latency=latency,
-            lifts=lifts,
-        )
-        self._env: TwinEnv = self._make(seed=0)
-        seen, moved = self._env.observation_space(ROBOT), self._env.action_space(ROBOT)
-        self.single_observation_space = Box(seen.low, seen.high)
-        self.single_action_space = Box(moved.low, moved.high, moved.shape, np.float32)
+        if lifts < 1:
+            raise InputError(f"lifts must be at least 1, got {lifts}")
+        self.num_envs, self._lifts = num_envs, lifts
+        self._drawing = drawing_of(task, behaviour, subject, control_period, latency)
+        self._twin = TaskTwin.of(self._drawing.scenarios)
+        low, high = (bound.astype(np.float32) for bound in self._twin.task.robot_bounds())
+        limit = action_limit(control_period)
+        self.single_observation_space = Box(low, high)
+        self.single_action_space = Box(-limit, limit, (1,), np.float32)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._state: State | None = None
@@ -94,7 +91,8 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
             raise InputError(f"reset takes no options, got {', '.join(options)}")
         if seed is not None or self._state is None:
             self._rng = np.random.default_rng(seed)
-            self._env = self._make(seed=int(self._rng.integers(2**62)))
+            seed = int(self._rng.integers(2**62))
+            self._env = TwinEnv(self._twin, drawn_pool(self._drawing, self._lifts, seed))
             self._step = jax.jit(partial(_step, self._env))
         self._state = self._env.begun(jnp.asarray(self._lanes()))
         self._over = np.zeros(self.num_envs, bool)

@@ -126,10 +126,8 @@ class TaskTwin:
         added
             Additions by learning people; None adds nothing.
         """
-        size, (memory, intention, hand, references) = (
-            lifts.frames,
-            self.intended(state, lifts, share),
-        )
+        size = lifts.frames
+        memory, intention, hand, references = self.intended(state, lifts, share)
         driven = self.person.drive(LIFTS, lifts.drawn, intention, references)
         differences, wrist = (jnp.broadcast_to(each, references.shape) for each in driven)
         if added is not None:

@@ -174,7 +174,9 @@ class TwinEnv:
         """Return lifts of the pool (n,) before their first step."""
         lifts, count = self.pool.lifts(lane), len(lane)
         lift = self.twin.at_rest(lifts)._replace(step=jnp.zeros(count, jnp.int32))
-        return State(lift, jnp.zeros((ADDED, count)), nothing_missed(self.twin, count), lane)
+        state = State(lift, jnp.zeros((ADDED, count)), nothing_missed(self.twin, count), lane)
+        # Of the types that later states have, so that a step is compiled once.
+        return jax.tree.map(lambda each: jax.lax.convert_element_type(each, each.dtype), state)
 
     def share(self, state: State) -> Share:
         """Return the noise of the coming step."""

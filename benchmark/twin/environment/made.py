@@ -4,16 +4,19 @@ from collections.abc import Callable
 from typing import Any, Final
 
 from colift.base.errors import InputError
-from colift.benchmark.environment.drawing import ANY, DRAW, make_drawing
+from colift.benchmark.environment.drawing import ANY, DRAW, Drawing, make_drawing
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.suites.catalogue import TASK
-from colift.benchmark.twin.drawing import common_rules, draw_lift, stack
+from colift.benchmark.twin.drawing import check_modelled, common_rules, draw_lift, stack
 from colift.benchmark.twin.environment.environment import ROBOT, TwinEnv
 from colift.benchmark.twin.environment.pool import LiftPool
 from colift.benchmark.twin.environment.spaces import Box
 from colift.benchmark.twin.task_twin import TaskTwin
+
+BOTH: Final = "both"
+"""Both agents learn."""
 
 LIFTS: Final = 1000
 """Number of lifts from which an environment draws."""
@@ -54,16 +57,41 @@ def make(
     InputError
         If a setting is out of range, or the twin does not model the task.
     """
-    if agents not in (ROBOT, "both"):
-        raise InputError(f"agents must be 'robot' or 'both', got {agents!r}")
-    if lifts < 1:
-        raise InputError(f"lifts must be at least 1, got {lifts}")
+    if agents not in (ROBOT, BOTH):
+        raise InputError(f"agents must be {ROBOT!r} or {BOTH!r}, got {agents!r}")
+    drawing = drawing_of(task, behaviour, subject, control_period, latency)
+    twin, pool = TaskTwin.of(drawing.scenarios), drawn_pool(drawing, lifts, seed)
+    return TwinEnv(twin, pool, learns=agents == BOTH, box=box, single=single)
+
+
+def drawing_of(
+    task: str, behaviour: str, subject: str, control_period: float, latency: float
+) -> Drawing:
+    """Return the source of lifts of an environment; see :func:`make`.
+
+    Raises
+    ------
+    InputError
+        If a setting is out of range, nothing is to be drawn, or the twin does not model the task.
+    """
     drawing = make_drawing(behaviour, subject, DEFAULT_ROBOT, control_period, latency, task)
     if drawing is None:
         raise InputError("the twin draws its lifts: behaviour 'any', subject 'draw', or both")
-    chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(lifts)]
+    for scenario in drawing.scenarios:
+        check_modelled(scenario)
+    return drawing
+
+
+def drawn_pool(drawing: Drawing, lifts: int, seed: int) -> LiftPool:
+    """Return lifts of a source, which the seed draws.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    if lifts < 1:
+        raise InputError(f"lifts must be at least 1, got {lifts}")
     rules = common_rules(drawing.scenarios)
-    pool = LiftPool(stack([draw_lift(scenario, each, rules) for scenario, each in chosen]))
-    return TwinEnv(
-        TaskTwin.of(drawing.scenarios), pool, learns=agents != ROBOT, box=box, single=single
-    )
+    chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(lifts)]
+    return LiftPool(stack([draw_lift(scenario, each, rules) for scenario, each in chosen]))

@@ -7,9 +7,10 @@ import pytest
 from colift.agents.policies.extrapolate import Extrapolate
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import make_drawing
-from colift.benchmark.environment.twin import TwinEnv
+from colift.benchmark.environment.vector import TwinVectorEnv
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
+from colift.benchmark.episode.seeding import derive_seed
 
 
 def make(**settings):
@@ -17,7 +18,7 @@ def make(**settings):
 
 
 def test_a_lift_is_that_of_the_engine_and_its_rewards_are_the_score():
-    env = make(num_envs=2, pool=1)
+    env = make(num_envs=2, lifts=1)
     view, _ = env.reset(seed=4)
     robots = [Extrapolate() for _ in range(2)]
     for robot in robots:
@@ -30,7 +31,7 @@ def test_a_lift_is_that_of_the_engine_and_its_rewards_are_the_score():
         assert not terminated.any()
     assert rewards[0] == rewards[1]
 
-    seed = int(np.random.default_rng(4).integers(2**62, size=1)[0])
+    seed = derive_seed(int(np.random.default_rng(4).integers(2**62)), "lift 0")
     scenario, seed = make_drawing("any", "draw", "nao", 0.1, 0.1).lift(seed)
     lift = Lift(scenario)
     episode = run_episode(lift, Extrapolate(), seed)
@@ -41,7 +42,7 @@ def test_a_lift_is_that_of_the_engine_and_its_rewards_are_the_score():
 
 
 def test_a_lift_that_has_ended_begins_anew():
-    env = make(num_envs=3, pool=2)
+    env = make(num_envs=3, lifts=2)
     env.reset(seed=1)
     still = np.zeros((3, 1), np.float32)
     while True:
@@ -57,7 +58,7 @@ def test_a_lift_that_has_ended_begins_anew():
 
 
 def test_dropping_never_earns():
-    env = make(num_envs=2, pool=1)
+    env = make(num_envs=2, lifts=1)
     env.reset(seed=2)
     total, over = 0.0, False
     while not over:
@@ -73,7 +74,7 @@ def test_dropping_never_earns():
 
 
 def test_the_same_seed_gives_the_same_lifts():
-    env = make(num_envs=4, pool=3)
+    env = make(num_envs=4, lifts=3)
     first, _ = env.reset(seed=8)
     again, _ = env.reset(seed=8)
     other, _ = env.reset(seed=9)
@@ -85,18 +86,18 @@ def test_the_same_seed_gives_the_same_lifts():
     ("settings", "message"),
     [
         ({"behaviour": "smooth", "subject": "S1"}, "behaviour 'any', subject 'draw', or both"),
-        ({"reward": "money"}, "reward must be 'task' or 'score', got 'money'"),
-        ({"num_envs": 0}, "at least 1, got 0"),
-        ({"pool": 0}, "at least 1"),
+        ({"task": "hint"}, "unknown task 'hint'"),
+        ({"num_envs": 0}, "num_envs must be at least 1, got 0"),
+        ({"lifts": 0}, "lifts must be at least 1, got 0"),
     ],
 )
 def test_settings_out_of_range_are_refused(settings, message):
     with pytest.raises(InputError, match=message):
-        TwinEnv(**settings)
+        TwinVectorEnv(**settings)
 
 
 def test_actions_that_cannot_be_carried_out_are_refused():
-    env = make(num_envs=2, pool=1)
+    env = make(num_envs=2, lifts=1)
     with pytest.raises(RuntimeError, match="call reset"):
         env.step(np.zeros((2, 1), np.float32))
     env.reset(seed=0)
