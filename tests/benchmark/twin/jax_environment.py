@@ -17,6 +17,13 @@ SUITES = ("standard-v1", "robust-v1", "agree-v1", "ball-v1", "intent-v1")
 COUNT = 6
 
 
+@pytest.fixture(autouse=True)
+def _forgotten():
+    """Free what was compiled for the environments of a test."""
+    yield
+    jax.clear_caches()
+
+
 def following(seen):
     """Return the action of a robot that follows its person's end, from observations (k, ...)."""
     return 0.8 * (seen[0] - seen[3])
