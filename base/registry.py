@@ -20,6 +20,9 @@ SUITES: Final = "colift.suites"
 TASKS: Final = "colift.tasks"
 ROBOTS: Final = "colift.robots"
 
+LEADING_SUITES: Final = ("robust-v1", "standard-v1")
+"""The suites that lead every list, in this order."""
+
 FEW: Final = 8
 """Number of names that an error lists; of more, it names only those that are near."""
 
@@ -40,6 +43,13 @@ def entries(group: str) -> dict[str, EntryPoint]:
     first is included here; :func:`entry_of` refuses the name.
     """
     return {name: found[0] for name, found in _registered(group).items()}
+
+
+def suite_names() -> tuple[str, ...]:
+    """Return the names of all suites: :data:`LEADING_SUITES`, then the others by name."""
+    known = entries(SUITES)
+    leading = [name for name in LEADING_SUITES if name in known]
+    return (*leading, *(name for name in known if name not in leading))
 
 
 def entry_of(group: str, name: str) -> EntryPoint:

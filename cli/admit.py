@@ -1,18 +1,24 @@
 """``colift admit``: a test of whether the lifts of a suite need coordination."""
 
 import dataclasses
+from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 from colift.base.errors import InputError
-from colift.benchmark.admission.assessment import Admission, admission_of, players
+from colift.benchmark.admission import inference
+from colift.benchmark.admission.assessment import Admission, admission_of, lifts_to_play
+from colift.benchmark.admission.control import CONTROL, CONTROL_PEOPLE, control_suite, first_people
 from colift.benchmark.admission.criteria import Criterion
-from colift.benchmark.bounds.catalogue import suite_bounds
+from colift.benchmark.admission.inference import inference_of, needs_inference
+from colift.benchmark.admission.tuning import Tuned, tune, tunings
 from colift.benchmark.execution.progress import job_bar, workers
-from colift.benchmark.results.baselines import shipped_bounds
+from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import left, show, table
-from colift.benchmark.training.apg_settings import pair_settings
+from colift.benchmark.training.apg_settings import ApgSettings, pair_settings
+from colift.benchmark.training.told_network import write_networks
+from colift.benchmark.training.variants import UPDATES, VARIANTS, budget
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.completion import suites
 from colift.cli.document import print_json
@@ -21,9 +27,9 @@ from colift.cli.options import AsJson, Jobs, chosen_suite
 from numpy.typing import NDArray
 from rich.table import Column, Table
 
-MOST_PAIRS = 20
+FEWEST_PAIRS, MOST_PAIRS = 3, 20
 
-WORDS = {True: "passed", False: "FAILED", None: "unknown"}
+WORDS = {True: "passed", False: "FAILED", None: "not compared"}
 
 
 def admit_suite(
@@ -36,49 +42,114 @@ def admit_suite(
             metavar="N", help="Pairs to train in the twin, for criterion d (extra: train)."
         ),
     ] = 0,
+    people: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Play the first N people only, of the suite and of the control."
+        ),
+    ] = None,
+    tune_policies: Annotated[
+        bool,
+        typer.Option(
+            "--tune",
+            help="Instead, tune the hand-made policies of the suite's task on training people.",
+        ),
+    ] = False,
+    policies: Annotated[
+        list[str] | None,
+        typer.Option("--policy", metavar="NAME", help="With --tune: this policy only. Repeatable."),
+    ] = None,
+    updates: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            help="Updates of each of five networks, for a suite with conditions (extra: train).",
+        ),
+    ] = UPDATES,
+    out: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="New folder for the weights of these networks."),
+    ] = None,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Test by six criteria whether the lifts of a suite need coordination.
 
-    Exit code 1 if a criterion failed.
+    A suite with conditions is tested for whether there is something to infer, by two criteria.
+
+    Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
+    the person. Exit code 1 if the first is not shown, or is shown for the control.
     """
-    episodes = chosen_suite(suite, None, None, None)
+    chosen = chosen_suite(suite, None, None, None)
+    if tune_policies:
+        if pairs or people is not None:
+            raise InputError("--tune takes neither --pairs nor --people: no lift of a suite counts")
+        _tune(chosen, policies, jobs, as_json=as_json)
+        return
+    if policies:
+        raise InputError("--policy is for --tune: a test of admission plays all policies")
+    episodes = chosen if people is None else first_people(chosen, people)
+    if needs_inference(episodes):
+        if pairs:
+            raise InputError("--pairs is for tasks with touch; this suite has none")
+        found = _infer(episodes, budget(updates), out, jobs)
+        _finish(found, as_json=as_json)
+        return
+    if updates != UPDATES or out is not None:
+        raise InputError(f"--updates and --out are for suites with conditions; {suite} has none")
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
-    names = players(episodes.scenarios[0].task.name)
-    bounds = 0 if shipped_bounds(episodes) else len(suite_bounds(episodes))
-    total = (2 + bounds + len(names)) * episodes.size
+    control = None if suite == CONTROL else control_suite(people or CONTROL_PEOPLE)
+    total = lifts_to_play(episodes) + (0 if control is None else lifts_to_play(control))
     with (
         reported_interrupt("a suite is tested with all policies or not at all"),
         workers("admit", total, jobs) as (pool, progress),
     ):
-        found = admission_of(episodes, names, pairs=played, executor=pool, progress=progress)
-    if as_json:
-        print_json({**dataclasses.asdict(found), "passed": found.passed})
-    else:
-        show(
-            _means(found),
-            table(
-                f"Admission of {found.suite}",
-                (
-                    "",
-                    Column("criterion", min_width=24),
-                    left("figure"),
-                    left("must be"),
-                    left("result"),
-                ),
-                map(_row, found.criteria),
-            ),
-            "\n".join(f"{each.letter}: {each.detail}" for each in found.criteria),
+        beside = None
+        if control is not None:
+            beside = admission_of(control, executor=pool, progress=progress)
+        found = admission_of(
+            episodes, pairs=played, control=beside, executor=pool, progress=progress
         )
+    _finish(found, as_json=as_json)
+
+
+def _finish(found: Admission, *, as_json: bool) -> None:
+    """Print a result; end with the exit code 1 if the suite is not admitted."""
+    if as_json:
+        print_json({**dataclasses.asdict(found), "claims": found.claims, "passed": found.passed})
+    else:
+        show(_means(found), _criteria(found), _words(found))
     if not found.passed:
         raise typer.Exit(1)
 
 
+def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
+    """Train networks in the twin, and test a suite with conditions by them."""
+    if out is not None and out.exists():
+        raise InputError(f"--out must be a new folder, {out} exists")
+    require_jax()
+    from colift.benchmark.training.conditioned_lesson import ConditionedLesson
+    from colift.benchmark.training.inferring import train_variants
+
+    lesson = ConditionedLesson(suite)
+    with job_bar("networks", len(VARIANTS) * settings.updates) as bar:
+        networks = train_variants(lesson, settings, progress=bar.advance)
+    if out is not None:
+        write_networks(networks, out)
+    total = inference.lifts_to_play(suite, len(networks))
+    with (
+        reported_interrupt("a suite is tested with all networks or not at all"),
+        workers("admit", total, jobs) as (pool, progress),
+    ):
+        return inference_of(suite, networks, executor=pool, progress=progress)
+
+
 def _cross_play(task: str, count: int) -> NDArray[np.float64]:
     """Train pairs, and return the error of each person with each robot."""
-    if not 2 <= count <= MOST_PAIRS:
-        raise InputError(f"--pairs must be 2 to {MOST_PAIRS}, or 0 for none; got {count}")
+    if not FEWEST_PAIRS <= count <= MOST_PAIRS:
+        raise InputError(
+            f"--pairs must be {FEWEST_PAIRS} to {MOST_PAIRS}, or 0 for none; got {count}"
+        )
     settings = pair_settings(task)
     require_jax()
     from colift.benchmark.training.pairs import cross_play
@@ -87,17 +158,76 @@ def _cross_play(task: str, count: int) -> NDArray[np.float64]:
         return cross_play(count, settings, bar.advance)
 
 
-def _means(found: Admission) -> Table:
-    """Return the mean errors of policies, baselines and bounds, with all people and with each."""
-    people = dict.fromkeys(name for means in found.by_person.values() for name in means)
-    means = sorted(found.means.items(), key=lambda each: each[1])
+def _tune(suite: Suite, names: list[str] | None, jobs: int | None, *, as_json: bool) -> None:
+    """Tune the policies of a suite's task, and print their errors before and after."""
+    chosen = tunings(suite.scenarios[0].task.name, names)
+    found: list[Tuned] = []
+    with (
+        reported_interrupt("a policy is tuned as a whole or not at all"),
+        workers("tune", None, jobs) as (pool, progress),
+    ):
+        for name in chosen:
+            found.append(tune(name, suite, executor=pool, progress=progress))
+    if as_json:
+        print_json({"tuned": [dataclasses.asdict(each) for each in found]})
+        return
     rows = (
-        (name, f"{mean:.2f}", *(f"{found.by_person[name][each]:.1f}" for each in people))
-        for name, mean in means
+        (each.policy, f"{each.before_mm:.2f}", f"{each.after_mm:.2f}", each.settings or "as it is")
+        for each in found
     )
-    return table(f"Mean RMSE on {found.suite}, mm", ("who", "all", *people), rows)
+    title = f"Policies of {suite.name}, tuned on training people; RMSE with others, mm"
+    show(table(title, ("policy", "before", "after", left("settings")), rows))
+
+
+def _means(found: Admission) -> Table:
+    """Return the mean errors of everybody, the best first."""
+    means = sorted(found.means.items(), key=lambda each: each[1])
+    rows = ((name, f"{mean:.2f}") for name, mean in means)
+    return table(f"Mean RMSE on {found.suite}, mm", ("who", "all"), rows)
+
+
+def _criteria(found: Admission) -> Table:
+    """Return the criteria, with the control beside them."""
+    control = found.control
+    columns: list[str | Column] = [
+        "",
+        Column("criterion", min_width=24),
+        left("figure [95 %]"),
+        left("must be"),
+        left("result"),
+    ]
+    if control is not None:
+        columns += [left(control.suite), left("its result")]
+    rows = (
+        (
+            *_row(each),
+            *(() if control is None else (_figure(beside), WORDS[beside.passed])),
+        )
+        for each, beside in zip(found.criteria, (control or found).criteria, strict=True)
+    )
+    return table(f"Admission of {found.suite}", tuple(columns), rows)
 
 
 def _row(each: Criterion) -> tuple[str, ...]:
-    figure = "none" if each.figure is None else f"{each.figure:.2f}"
-    return each.letter, each.what, figure, each.bar, WORDS[each.passed]
+    return each.letter, each.what, _figure(each), each.bar, WORDS[each.passed]
+
+
+def _figure(each: Criterion) -> str:
+    if each.figure is None or each.ci95 is None:
+        return "none"
+    return f"{each.figure:.2f} [{each.ci95[0]:.2f}, {each.ci95[1]:.2f}]"
+
+
+def _words(found: Admission) -> str:
+    """Return what is behind the figures, and what a verdict hangs on."""
+    lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
+    if found.fragile:
+        lines.append(f"fragility: {'; '.join(map(str, found.fragile))}")
+    elif found.control is not None:
+        lines.append("fragility: no verdict changes without any one policy or person")
+    if found.control is not None:
+        fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
+        lines.append(f"control: {found.control.suite} {fate}")
+    claims = found.claims.items()
+    lines += [f"{claim}: {'holds' if holds else 'NOT SHOWN'}" for claim, holds in claims]
+    return "\n".join(lines)

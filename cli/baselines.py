@@ -1,14 +1,14 @@
-"""``colift baselines``: the baselines and bounds of all suites."""
+"""``colift baselines``: the baselines and references of all suites."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from colift.base.registry import SUITES, own_entries
-from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.comparison.formatting import between
-from colift.benchmark.comparison.playing import play_bounds
+from colift.benchmark.comparison.playing import play_references
 from colift.benchmark.execution.progress import workers
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import (
     BASELINES,
     ToShip,
@@ -39,20 +39,22 @@ def baselines(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Play the baselines and the bounds on suites, and print their RMSE per behaviour."""
+    """Play the baselines and the references on suites, and print their RMSE per behaviour."""
     check_output(out)
     suites = [make_suite(name) for name in only or own_entries(SUITES)]
-    total = sum((len(BASELINES) + len(suite_bounds(suite))) * suite.size for suite in suites)
+    total = sum((len(BASELINES) + len(suite_references(suite))) * suite.size for suite in suites)
     played: list[ToShip] = []
     with workers("baselines", total, jobs) as (pool, progress):
         for suite in suites:
             baselines = play_baselines(suite, executor=pool, progress=progress)
-            bounds = play_bounds(suite_bounds(suite), suite, executor=pool, progress=progress)
-            played.append(ToShip(suite=suite, baselines=baselines, bounds=bounds))
+            references = play_references(
+                suite_references(suite), suite, executor=pool, progress=progress
+            )
+            played.append(ToShip(suite=suite, baselines=baselines, references=references))
     rows = [
         (each.suite.name, name, behaviour or "all", f"{error.mean:.2f}", between(error.ci95, ".2f"))
         for each in played
-        for name, baseline in {**each.baselines, **each.bounds}.items()
+        for name, baseline in {**each.baselines, **each.references}.items()
         for behaviour in (*dict.fromkeys(key[0] for key in baseline.strata), None)
         for error in (baseline.part(behaviour).error,)
     ]

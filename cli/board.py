@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.tables.printing import show, stdout_console
 from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, opened_board
 from colift.cli.document import print_json
@@ -39,7 +40,7 @@ def board(
         ),
     ] = None,
 ) -> None:
-    """Print a board's table: rank groups, RMSE with its interval, and the human-human baseline."""
+    """Print a board's table: ranks, RMSE with its interval, and the human-human baseline."""
     check_exclusive(json=as_json, site=site, backup=backup, restore=from_backup)
     if from_backup is not None:
         _report(restore(from_backup, board), f"restored {from_backup} to {board}")
@@ -99,7 +100,7 @@ def _content(opened: Board, season: str | None) -> dict[str, Any]:
         "human_human": None
         if human_human is None
         else {
-            "rmse_mm": {"mean": human_human.rmse_mm.mean, "ci95": list(human_human.rmse_mm.ci95)},
+            "rmse_mm": plain_estimate(human_human.rmse_mm),
             **human_human.means,
         },
         "rows": standings_plain(opened, info.name),

@@ -8,6 +8,7 @@ from typing import Annotated, Final
 import typer
 from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.channels import CHANNELS
+from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.over_channels import OverChannel, over_channels
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
@@ -122,8 +123,8 @@ def _prices_table(found: Sequence[OverChannel], columns: Sequence[str]) -> Table
 
 
 def _price(each: OverChannel) -> str:
-    low, high = each.price_mm.ci95
-    return f"{each.price_mm.mean:+.1f} ({low:.1f} to {high:.1f})"
+    interval = between(each.price_mm.ci95, ".1f")
+    return f"{each.price_mm.mean:+.1f}" + (f" ({interval})" if interval else "")
 
 
 def _rows(found: Sequence[OverChannel]) -> dict[str, list[OverChannel]]:

@@ -12,18 +12,18 @@ from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
 from colift.base.registry import POLICIES, check_plays, entries, playing
-from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.bundle import is_bundle
 from colift.benchmark.channels import Channel
-from colift.benchmark.comparison.captions import failures, goals, unit_warnings, verdict
+from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.comparison.playing import Bound, episodes_to_play, play_policies
+from colift.benchmark.comparison.playing import Reference, episodes_to_play, play_policies
 from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
@@ -73,11 +73,11 @@ def compare_policies(
     recordings: Recordings = None,
     robot: RobotName = None,
     channel: ChannelName = None,
-    bounds: Annotated[
+    references: Annotated[
         bool,
         typer.Option(
-            "--bounds",
-            help="Also play the bounds, such as the oracle; shipped bounds are always shown.",
+            "--references",
+            help="Also play the references, such as the oracle; shipped ones are always shown.",
         ),
     ] = False,
     jobs: Jobs = None,
@@ -109,7 +109,7 @@ def compare_policies(
         from colift.benchmark.comparison.files import write_comparison
 
         try_folder("--out", out)
-    limits = suite_bounds(episodes) if bounds else {}
+    limits = suite_references(episodes) if references else {}
     results = [each.policy for each in stored]
     comparison = _compare(specs, results, episodes, limits, network, jobs, as_json)
     if out is not None:
@@ -174,13 +174,13 @@ def _compare(
     specs: Mapping[str, AgentSpec],
     stored: Sequence[PolicyResults],
     suite: Suite,
-    bounds: Mapping[str, Bound],
+    references: Mapping[str, Reference],
     channel: Channel | None,
     jobs: int | None,
     as_json: bool,
 ) -> Comparison:
     """Play the episodes and compare."""
-    total = episodes_to_play(len(specs), suite, bounds=len(bounds))
+    total = episodes_to_play(len(specs), suite, references=len(references))
     with (
         reported_interrupt("policies are compared on all lifts or not at all"),
         workers("compare", total, jobs) as (pool, progress),
@@ -190,7 +190,7 @@ def _compare(
             specs,
             suite,
             stored=stored,
-            bounds=bounds,
+            references=references,
             executor=pool,
             progress=progress,
             channel=channel,
@@ -202,4 +202,9 @@ def _show(comparison: Comparison) -> None:
     show(ranks_table(comparison), differences_table(comparison))
     if len(comparison.behaviours) > 1:
         show(behaviours_table(comparison))
-    show(verdict(comparison), *goals(comparison), *unit_warnings(comparison))
+    show(
+        verdict(comparison),
+        *roughness(comparison),
+        *goals(comparison),
+        *unit_warnings(comparison),
+    )

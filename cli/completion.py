@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
-from colift.base.registry import HUMANS, POLICIES, ROBOTS, SUITES, entries
+from colift.base.registry import HUMANS, POLICIES, ROBOTS, entries, suite_names
 from colift.benchmark.channels import CHANNELS
 
 
@@ -28,7 +28,7 @@ def policies(incomplete: str) -> Iterator[str]:
 
 def suites(incomplete: str) -> Iterator[str]:
     """Yield the suites that begin with a text."""
-    yield from (name for name in entries(SUITES) if name.startswith(incomplete))
+    yield from (name for name in suite_names() if name.startswith(incomplete))
 
 
 def robots(incomplete: str) -> Iterator[str]:

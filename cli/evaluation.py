@@ -209,7 +209,7 @@ def _print_results(
     if as_json:
         print_json({**content.plain(), **recordings_json(suite)})
         return
-    show(results_table(content, suite.metrics), results_text(content))
+    show(results_table(content, suite.metrics), results_text(content, suite.metrics))
     if content.complete and not content.summary.failed:
         show(*remarks(content.summary, content.baselines))
     if out is not None:

@@ -7,12 +7,14 @@ from typing import Annotated, Any
 import typer
 from colift.agents.control.anticipation import Anticipation, anticipation_json
 from colift.agents.control.learned_task import task_json
+from colift.agents.control.linear_forecast import linear_json
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.execution.pool import checked_jobs
 from colift.benchmark.execution.progress import progress_bar, workers
 from colift.benchmark.tables.printing import show
 from colift.benchmark.training import anticipation
+from colift.benchmark.training import linear as linear_training
 from colift.benchmark.training.data import Timing
 from colift.benchmark.training.demonstrations import FIRST_SEED, LIFTS, read_demonstrations
 from colift.benchmark.training.q_learning import LearningTrial, learning_trials, table_json
@@ -25,7 +27,13 @@ from colift.benchmark.training.task_model import (
 )
 from colift.cli.demonstrate import record
 from colift.cli.options import LATENCY_OPTION, PERIOD_OPTION, Jobs, check_new_file, write_output
-from colift.cli.tables.learning import anticipation_table, convergence_text, q_table, task_table
+from colift.cli.tables.learning import (
+    anticipation_table,
+    convergence_text,
+    linear_table,
+    q_table,
+    task_table,
+)
 from typer.core import TyperGroup
 
 Lifts = Annotated[int, typer.Option(metavar="N", help="Lifts per round.")]
@@ -149,3 +157,21 @@ def anticipate(
     show(anticipation_table(models))
     provenance = {"command": command, **models[-1].provenance}
     write_output(out, anticipation_json(dataclasses.replace(models[-1], provenance=provenance)))
+
+
+@app.command()
+def linear(
+    lifts: Annotated[
+        int, typer.Option(metavar="N", help="Lifts to learn from.")
+    ] = linear_training.LIFTS,
+    seed: Seed = anticipation.FIRST_SEED,
+    out: Out = None,
+) -> None:
+    """Learn to predict the human's motion by a linear function of ten samples."""
+    check_new_file(out)
+    with progress_bar("lifting", lifts) as progress:
+        forecast = linear_training.learn_linear(lifts=lifts, first_seed=seed, progress=progress)
+    show(linear_table(forecast))
+    command = f"colift learn linear --lifts {lifts} --seed {seed}"
+    provenance = {"command": command, **forecast.provenance}
+    write_output(out, linear_json(dataclasses.replace(forecast, provenance=provenance)))

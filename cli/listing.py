@@ -26,6 +26,7 @@ from colift.base.registry import (
     entries,
     lookup,
     policies_by_task,
+    suite_names,
     summary,
 )
 from colift.benchmark.channels import CHANNELS
@@ -99,7 +100,7 @@ def _sections(word: str, broken: list[str]) -> Iterator[Section]:
             people = [(name, Text(_about(subject))) for name, subject in SUBJECTS.items()]
             yield "Subjects", [*people, ("draw-N", Text(drawn))]
         case "suites":
-            yield "Suites", _registered(SUITES, entries(SUITES), broken)
+            yield "Suites", _registered(SUITES, suite_names(), broken)
         case "tasks":
             yield "Tasks", _registered(TASKS, entries(TASKS), broken)
         case "robots":

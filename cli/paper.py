@@ -54,16 +54,34 @@ def paper(
 
 
 def _summary(report: "Report") -> list[RenderableType]:
-    """Return Table I and the list of the claims."""
-    from colift.benchmark.paper.pages import HEADER, claims_verdict, table_notes, table_rows
+    """Return Table I, its means at two latencies, and the list of the claims."""
+    from colift.benchmark.paper.pages import (
+        HEADER,
+        LATENCY_CAPTION,
+        LATENCY_HEADER,
+        claims_verdict,
+        kind,
+        latency_rows,
+        table_notes,
+        table_rows,
+    )
 
     titles = [HEADER[column].replace(": ", ":\n") for column in SHOWN]
     rows = [
         [row[column].replace(" (", "\n(") for column in SHOWN] for row in table_rows(report.table)
     ]
     claims = table(
-        claims_verdict(sum(claim.holds for claim in report.claims), len(report.claims)),
-        ("claim", left("measured"), "holds"),
-        ((each.claim, each.measured, "yes" if each.holds else "no") for each in report.claims),
+        claims_verdict(report.claims),
+        ("claim", left("measured"), "kind", "holds"),
+        (
+            (each.claim, each.measured, kind(each), "yes" if each.holds else "no")
+            for each in report.claims
+        ),
     )
-    return [table("Table I: RMSE [mm]", titles, rows), *table_notes(report.table), claims]
+    latency = table(
+        "The age of the sample",
+        LATENCY_HEADER,
+        latency_rows(report.table, report.fresh),
+        caption=LATENCY_CAPTION,
+    )
+    return [table("Table I: RMSE [mm]", titles, rows), *table_notes(report.table), latency, claims]

@@ -1,5 +1,6 @@
 """``colift practice``: evaluation of colift's own policies in the practice seasons."""
 
+import dataclasses
 import sys
 from concurrent.futures import Executor
 from datetime import UTC, datetime
@@ -11,10 +12,15 @@ import typer
 from colift.base.errors import EvaluatorFault, InputError
 from colift.base.registry import own_policies
 from colift.benchmark.execution.progress import job_bar
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.tables.printing import show, table
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Dask, Jobs, executor
-from colift.leaderboard.evaluation.evaluate import episode_count, play_human_human
+from colift.leaderboard.evaluation.evaluate import (
+    episode_count,
+    play_human_human,
+    play_season_references,
+)
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.practice.season import SUITES, is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import PlayedSeason
@@ -42,7 +48,8 @@ def practice(
 ) -> None:
     """Evaluate colift's own policies in the practice seasons, whose secrets are public.
 
-    Each policy is saved when it is finished: the same command continues after an interruption.
+    Each policy is saved when it is finished: the same command continues after an interruption. The
+    references are played once, and again with --fresh.
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")
@@ -83,7 +90,11 @@ def _season(
         there = None
     done = [] if there is None or fresh else [p for p in there.played if is_current(p, season)]
     todo = [name for name in names if name not in {each.entry.name for each in done}]
-    total = len(todo) * episode_count(season) + (season.suite.size if there is None else 0)
+    beside = there is None or fresh or not there.references
+    once = (season.suite.size if there is None else 0) + (
+        len(suite_references(season.hidden)) * season.hidden.size if beside else 0
+    )
+    total = len(todo) * episode_count(season) + once
     faults = []
     with job_bar(season.name, total) as bar:
 
@@ -98,8 +109,16 @@ def _season(
                 suite_digest=season.suite.digest,
                 began_at=datetime.now(UTC),
                 human_human=human_human,
+                references={},
                 played=(),
             )
+        if beside:
+            stage("all", "references")
+            there = dataclasses.replace(
+                there,
+                references=play_season_references(season, executor=pool, progress=bar.advance),
+            )
+            there.write(out)
         for name in todo:
             watch = Callbacks(stage=partial(stage, name), progress=bar.advance)
             try:

@@ -4,9 +4,15 @@ from typing import Annotated
 
 import typer
 from colift.base.registry import own_policies
+from colift.benchmark.execution.progress import workers
+from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.results.baselines import reference_label
 from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
+from colift.cli.options import Jobs
 from colift.leaderboard.core.board import LOCAL
 from colift.leaderboard.evaluation.entrant import builtin_entrant
+from colift.leaderboard.evaluation.evaluate import play_human_human, play_season_references
+from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.queue import Queue
 
 app = typer.Typer(help="Begin and end the seasons of a board.", no_args_is_help=True)
@@ -33,6 +39,25 @@ def begin(
             jobs = [Queue(opened).enqueue_builtin(builtin_entrant(each)) for each in names]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
+
+
+@app.command()
+def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None) -> None:
+    """Play the references on a season's hidden lifts: the board shows them beside the rows."""
+    with opened_board(board) as opened:
+        season = opened.season_of(name)
+        secrets = opened.store.secrets(name)
+        beside = len(suite_references(season.hidden)) + (secrets.known_human_human() is None)
+        total = season.hidden.size * beside
+        with workers(f"references of season {name}", total, jobs) as (pool, progress):
+            watch = Callbacks(progress=progress)
+            secrets.human_human(lambda: play_human_human(season, executor=pool, watch=watch))
+            found = play_season_references(season, executor=pool, progress=progress)
+        secrets.keep_references(found)
+        for each, scores in opened.references(name).items():
+            print(f"{reference_label(each)}: {scores.rmse_mm.mean} mm on the hidden lifts")
+        if not found:
+            print(f"{season.suite.name} has no references")
 
 
 @app.command()

@@ -9,7 +9,7 @@ import typer
 from colift.agents.loading.description import field_docstrings
 
 METAVARS: Final[Mapping[type, str]] = {int: "N", float: "X", str: "NAME"}
-"""What stands for a value in a help text, by its type."""
+"""What stands for a value in a help text, by its type; a truth has a flag and no value."""
 
 
 def with_settings(
@@ -36,7 +36,7 @@ def with_settings(
 
     def parameter(name: str) -> inspect.Parameter:
         meaning = texts[name].partition(". ")[0].rstrip(".")
-        given: dict[str, Any] = {"metavar": METAVARS[types[name]], "help": f"{meaning}."}
+        given: dict[str, Any] = {"metavar": METAVARS.get(types[name]), "help": f"{meaning}."}
         return inspect.Parameter(
             name,
             inspect.Parameter.KEYWORD_ONLY,

@@ -122,7 +122,7 @@ def _submit_to_folder(submission: Submission, folder: Path, board: Board, jobs: 
     if entry is None or entry.row is None:
         public = "" if bundle is None else f"\nIts public run: {bundle}"
         _refuse(f"refused, so there is no row: {job.reason}{public}", fix=folder)
-    rows = ((each.section, each.group, each.row) for each in board.standings(job.season))
+    rows = ((each.section, each.rank, each.row) for each in board.standings(job.season))
     _show_row(job.submission, rows)
     print(f"Bundle of the public run: {bundle}\nNext: colift verify {bundle}")
 
@@ -178,7 +178,7 @@ def _submit_to_web(
     _show_row(
         digest,
         (
-            (each["section"], each["group"], BoardRow.read(each["row"]))
+            (each["section"], each["rank"], BoardRow.read(each["row"]))
             for each in _ranked(board, season, digest)
         ),
     )

@@ -88,8 +88,8 @@ def test_the_open_questions_quote_what_their_commands_print():
     """The page is shown by boards, which have no role for a quoted number."""
     by_command = {
         "colift compare --all": ("compare",),
-        "colift bounds --recordings FILE.csv": ("bounds-recorded",),
-        "colift bounds": ("bounds", "bounds-recorded"),
+        "colift references --recordings FILE.csv": ("references-recorded",),
+        "colift references": ("references", "references-recorded"),
         "colift ablate": ("ablate",),
         "colift sweep": ("sweep",),
     }

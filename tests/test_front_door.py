@@ -136,13 +136,14 @@ def test_what_it_prints_and_holds(copied):
     low, high = copied.rmse_mm_ci95
     assert low < copied.rmse_mm < high
     assert 2 < copied.vs_human < 3
-    assert repr(copied).startswith("<Evaluation of copy on quick-v1: RMSE 22.5")
+    assert repr(copied).startswith("<Evaluation of copy on quick-v1: RMSE 21.0")
 
 
 def test_its_rows_and_its_frame(copied):
     pytest.importorskip("pandas")
     frame = copied.to_frame()
-    assert list(frame["seed"]) == 4 * [0, 1, 2]
+    assert list(frame["seed"]) == 12 * [0]
+    assert list(frame["subject"]) == 4 * ["draw-1", "draw-2", "draw-3"]
     assert frame["rmse_mm"].mean() == pytest.approx(copied.rmse_mm)
     assert len(copied.rows()) == len(frame) == 12
 
@@ -163,9 +164,9 @@ def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):
 def test_the_failures_of_a_policy_are_told():
     failed = colift.evaluate(Failing)
     assert len(failed.failures) == 12
-    assert failed.failures[0] == "smooth/S1 seed 0: step 0: ValueError: no idea"
+    assert failed.failures[0] == "smooth/draw-1 seed 0: step 0: ValueError: no idea"
     *_, told = str(failed).partition(
-        "12 of 12 lifts failed and count as worst; the first, smooth/S1 seed 0"
+        "12 of 12 lifts failed and count as worst; the first, smooth/draw-1 seed 0"
     )
     assert "in act\n" in told
     assert told.endswith("ValueError: no idea")

@@ -67,7 +67,11 @@ class Memory(NamedTuple):
 
 
 def act(
-    network: GatedNetwork, memory: Memory, observation: Any, functions: ArrayFunctions
+    network: GatedNetwork,
+    memory: Memory,
+    observation: Any,
+    functions: ArrayFunctions,
+    told: Any = None,
 ) -> tuple[Memory, Any]:
     """Return the memory after a step, and the change of the command [m].
 
@@ -86,6 +90,8 @@ def act(
         (5, ...) observations of :class:`.RobotObservation`.
     functions
         The library of the arrays.
+    told
+        (k, ...) more inputs, of a network that is told more than a policy; None is none.
     """
     height = observation[RobotObservation.HUMAN_END]
     command = observation[RobotObservation.HAND_COMMAND]
@@ -103,6 +109,8 @@ def act(
             50.0 * (observation[RobotObservation.ROBOT_END] - height),
         )
     )
+    if told is not None:
+        inputs = functions.join((inputs, told))
     units = gated(network, memory.units, inputs, functions)
     output = functions.product(network.output, functions.join((units, inputs)))
     correction = output[0] + network.output_bias[0]
@@ -134,8 +142,8 @@ def memory_at_rest(network: GatedNetwork) -> Memory:
     return Memory(np.zeros(network.units), 0.0, 0.0, 0.0, 0.0)
 
 
-def network_of(arrays: Any, source: str, inputs: int = INPUTS) -> GatedNetwork:
-    """Return the network of named arrays with so many inputs, in double precision.
+def network_of(arrays: Any, source: str, inputs: int = INPUTS, outputs: int = 1) -> GatedNetwork:
+    """Return the network of named arrays with so many inputs and outputs, in double precision.
 
     Raises
     ------
@@ -156,8 +164,8 @@ def network_of(arrays: Any, source: str, inputs: int = INPUTS) -> GatedNetwork:
         "inputs": (3 * units, inputs),
         "memory": (3 * units, units),
         "bias": (3 * units,),
-        "output": (1, units + inputs),
-        "output_bias": (1,),
+        "output": (outputs, units + inputs),
+        "output_bias": (outputs,),
     }
     for name, shape in shapes.items():
         if found[name].shape != shape:

@@ -60,7 +60,7 @@ class LoopSettings:
     latency: float = 0.1
     """Time from the policy's motion-capture frame until the hands begin to move [s]: the frame's
     age plus :data:`DEAD_TIME`, which is 0 in simulation. If even the newest frame is older, that
-    one is used. The policies were made for 0.1 s, the paper's latency."""
+    one is used. The policies were made for 0.1 s, the suites' latency."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""

@@ -7,7 +7,7 @@ from typing import Any, Final, Generic, NamedTuple
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans.subject import Subject
-from colift.agents.rules import ArrayFunctions, N, View
+from colift.agents.rules import SCALARS, ArrayFunctions, N, View
 from colift.robots.arithmetic import dot, each
 from numpy.typing import NDArray
 
@@ -144,3 +144,20 @@ class NoiseStream:
 def drawn_noise(subject: Subject, seed: int, frames: int) -> NDArray[np.float64]:
     """Return gain and tremor (2, frames) of a hand."""
     return np.array(NoiseStream(subject, seed).between(0, frames))
+
+
+def performed(subject: Subject, target: NDArray[np.float64], seed: int) -> NDArray[np.float64]:
+    """Return the heights that a hand pulls towards while the table stays level (n,) [m].
+
+    Parameters
+    ----------
+    subject
+        The person, with tremor and motor noise.
+    target
+        (n,) intended height in each frame [m].
+    seed
+        Seed of the noise.
+    """
+    noise = NoiseStream(subject, seed).between(0, len(target))
+    _, heights = move_hand(SCALARS, HandMemory(0.0, 0.0, 0.0), 0.0, target.tolist(), noise)
+    return np.array(heights)

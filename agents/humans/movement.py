@@ -1,5 +1,6 @@
 """The random part common to all behaviours: goal, durations, rests and natural strokes."""
 
+import math
 from dataclasses import dataclass
 from typing import Self
 
@@ -75,6 +76,12 @@ def interpolate(limits: tuple[float, float], fraction: float) -> float:
     """Return the value at a ``fraction`` (0 to 1) between the lower and the upper limit."""
     low, high = limits
     return low + (high - low) * fraction
+
+
+def interpolate_log(limits: tuple[float, float], fraction: float) -> float:
+    """Return the value at a ``fraction`` (0 to 1) between two positive limits, in the logarithm."""
+    low, high = limits
+    return math.exp(interpolate((math.log(low), math.log(high)), fraction))
 
 
 def _whole_frames(duration: float) -> float:

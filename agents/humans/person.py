@@ -1,7 +1,7 @@
 """The rules of a person at the near end: one text for one lift in the engine and n in the twin."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from colift.agents.humans.subject import Subject
@@ -74,6 +74,18 @@ class Person(Protocol):
 
         A person who learns has them as inputs (``colift.benchmark.training.pairs``).
         """
+
+
+@runtime_checkable
+class Attentive(Protocol):
+    """A behaviour whose people have rules of their own, instead of those of the task.
+
+    It is for tasks whose people follow their plan whatever happens (:data:`.FOLLOWS_PLAN`).
+    """
+
+    @property
+    def rules(self) -> Person:
+        """The rules of its people."""
 
 
 class Trait(NamedTuple):

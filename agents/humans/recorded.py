@@ -58,7 +58,7 @@ class Recorded:
         before, after = np.random.default_rng(seed).random(2).tolist()
         return assemble(
             still("ready", 0.0, interpolate(REST_BEFORE, before)),
-            *_by_speed(_retarget(self.recording)),
+            *by_speed(_retarget(self.recording)),
             still("rest", 0.0, interpolate(REST_AFTER, after)),
         )
 
@@ -128,7 +128,7 @@ def _spline(control: NDArray[np.float64], u: NDArray[np.float64]) -> NDArray[np.
     )
 
 
-def _by_speed(heights: NDArray[np.float64]) -> list[Segment]:
+def by_speed(heights: NDArray[np.float64]) -> list[Segment]:
     """Return the movement divided into strokes and rests, by its speed with hysteresis."""
     velocity = np.diff(heights, prepend=0.0) / FRAME
     speed = np.abs(velocity)

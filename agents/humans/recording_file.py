@@ -11,7 +11,7 @@ import numpy as np
 from colift.agents.humans.artefacts import fault
 from colift.agents.humans.copies import first_copy
 from colift.agents.humans.foreign_files import foreign_format
-from colift.agents.humans.recordings import COLUMNS, Recording
+from colift.agents.humans.recordings import COLUMNS, PERSON, Recording
 from colift.base.errors import InputError
 from colift.base.text import decoded, read_bytes
 
@@ -35,24 +35,32 @@ Sample = tuple[int, float, float]
 def load_recordings(path: str | Path) -> tuple[Recording, ...]:
     """Return the recordings of a CSV file with the columns ``trial,t_s,z_m``, in order.
 
-    Other columns are ignored. Heights [m] may have any origin within 10 m, times [s] any rate from
-    10 Hz.
+    A column ``person`` names the person of each trial: lifts of one person are one unit in
+    intervals and tests. Other columns are ignored. Heights [m] may have any origin within 10 m,
+    times [s] any rate from 10 Hz.
 
     Raises
     ------
     InputError
         If the file cannot be read or has another format, a column is missing or there twice, a
-        value is not a number, a trial has an artefact of :mod:`.artefacts`, two names are the same
-        number, or two trials are the same lift. The message names the line and the cure.
+        value is not a number, a trial has an artefact of :mod:`.artefacts` or two persons, two
+        names are the same number, or two trials are the same lift. The message names the line and
+        the cure.
     """
     path = Path(path)
     samples: dict[str, list[Sample]] = {}
-    for trial, sample in _samples(path):
+    people: dict[str, str] = {}
+    for trial, person, sample in _samples(path):
         samples.setdefault(trial, []).append(sample)
+        if people.setdefault(trial, person) != person:
+            raise InputError(
+                f"{path}, line {sample[0]}: trial {trial!r:.80} is of person {person!r:.80}, and "
+                f"of {people[trial]!r:.80} before: a trial is one lift of one person"
+            )
     if not samples:
         raise InputError(f"{path}: no samples, needs rows of {','.join(COLUMNS)}")
     _check_names(path, samples)
-    found = tuple(_recording(path, trial, rows) for trial, rows in samples.items())
+    found = tuple(_recording(path, trial, people[trial], rows) for trial, rows in samples.items())
     copy = first_copy(found)
     if copy is not None:
         one, other = (found[i].name for i in copy)
@@ -64,12 +72,12 @@ def load_recordings(path: str | Path) -> tuple[Recording, ...]:
     return found
 
 
-def _recording(path: Path, trial: str, rows: Sequence[Sample]) -> Recording:
+def _recording(path: Path, trial: str, person: str, rows: Sequence[Sample]) -> Recording:
     lines, times, heights = zip(*rows, strict=True)
     found = fault(np.array(times), np.array(heights))
     if found is not None:
         raise InputError(f"{path}, line {lines[found.sample]}: trial {trial!r:.80} {found.text}")
-    return Recording(name=trial, times=times, heights=heights)
+    return Recording(name=trial, times=times, heights=heights, person=person)
 
 
 def _check_names(path: Path, samples: dict[str, list[Sample]]) -> None:
@@ -88,7 +96,8 @@ def _check_names(path: Path, samples: dict[str, list[Sample]]) -> None:
             )
 
 
-def _samples(path: Path) -> Iterator[tuple[str, Sample]]:
+def _samples(path: Path) -> Iterator[tuple[str, str, Sample]]:
+    """Yield trial, person and sample of each row; the person is empty if there is no column."""
     data = read_bytes(path, LARGEST)
     name = foreign_format(data)
     if name:
@@ -102,6 +111,7 @@ def _samples(path: Path) -> Iterator[tuple[str, Sample]]:
         header = [column.strip() for column in next(rows, ())]
         _check_header(path, header)
         places = [header.index(column) for column in COLUMNS]
+        who = header.index(PERSON) if PERSON in header else None
         for row in rows:
             where = f"{path}, line {reader.line_num}"
             if any(map(str.strip, row[len(header) :])):
@@ -113,8 +123,10 @@ def _samples(path: Path) -> Iterator[tuple[str, Sample]]:
             if not trial:
                 raise InputError(f"{where}: trial is empty, must name the trial")
             seen = height.lower() not in MISSING
+            person = row[who].strip() if who is not None and who < len(row) else ""
             yield (
                 trial,
+                person,
                 (
                     reader.line_num,
                     _number(time, "t_s", where),

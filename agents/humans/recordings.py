@@ -8,6 +8,9 @@ from colift.base.errors import InputError
 COLUMNS: Final = ("trial", "t_s", "z_m")
 """Columns of a file of recordings."""
 
+PERSON: Final = "person"
+"""A further column that a file can have: the name of the person who was recorded."""
+
 LEAST_MOVEMENT: Final = 0.01
 """Least range of the heights of a lift [m]."""
 
@@ -28,6 +31,8 @@ class Recording:
     """Time of each sample [s], increasing, at any rate."""
     heights: tuple[float, ...]
     """Height at each time [m], from any origin."""
+    person: str = ""
+    """Name of the person; empty if it is not known."""
 
     def __post_init__(self) -> None:
         if len(self.times) != len(self.heights):

@@ -224,7 +224,7 @@ SUBJECTS: Final[dict[str, Subject]] = {
         ),
     )
 }
-"""The five subjects by name; S1 is practised, S3 fast and irregular.
+"""The paper's five subjects by name; S1 is practised, S3 fast and irregular.
 
 Amplitude and duration are fitted to the error level of the paper's Table I, which states neither;
 the other numbers are choices within the ranges of the literature, deliberately diverse.

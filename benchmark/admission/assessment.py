@@ -1,40 +1,36 @@
-"""The admission test of a suite: all policies, two people and the oracle, by each criterion."""
+"""The test of admission: all players on all lifts, each criterion, and the negative control."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from typing import Final
+from functools import partial
 
 import numpy as np
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.agents.tasks.touch.touch_controller import TouchController
-from colift.base.errors import InputError
-from colift.base.registry import own_policies, policies_by_task
+from colift.agents.spec import AgentSpec
+from colift.benchmark.admission.blind_reference import BLIND, BlindReference, has_blind_reference
 from colift.benchmark.admission.criteria import (
     Criterion,
     conventions,
     interaction,
     like_people,
+    needs_partner,
     no_free_ride,
-    person_means_mm,
     rank_changes,
-    room,
 )
-from colift.benchmark.admission.published import PUBLISHED
-from colift.benchmark.bounds.catalogue import suite_bounds
-from colift.benchmark.bounds.oracle import ORACLE
-from colift.benchmark.comparison.playing import known_bounds
-from colift.benchmark.execution.runner import Run, run_suite
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
+from colift.benchmark.admission.evidence import Evidence
+from colift.benchmark.admission.fragility import Fragile, fragile_verdicts
+from colift.benchmark.admission.played import Played
+from colift.benchmark.admission.players import HOLD, acts_alone, other_settings, players
+from colift.benchmark.admission.published import NOT_COMPARED, compared
+from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.references.best_known import BestKnown, has_best_known
+from colift.benchmark.results.baselines import BEST_KNOWN, HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 from numpy.typing import NDArray
 
-KEEPERS: Final = ("copy", "extrapolate", "anticipate")
-"""Policies that keep the table level, from the simplest to the best."""
-
-HOLD: Final = "hold"
-"""The policy that stands still."""
+Progress = Callable[[int], None]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,82 +40,106 @@ class Admission:
     suite: str
     digest: str
     means: Mapping[str, float]
-    """Mean RMSE of each player: policies, two people and the oracle [mm]."""
-    by_person: Mapping[str, Mapping[str, float]]
-    """Mean RMSE of each player with each person [mm]."""
+    """Mean RMSE of each player [mm]."""
     criteria: tuple[Criterion, ...]
+    fragile: tuple[Fragile, ...]
+    """Policies and people without whom a verdict would be another one."""
+    control: "Admission | None"
+    """The result of the negative control; None if it is the control."""
+
+    @property
+    def claims(self) -> dict[str, bool]:
+        """Whether each claim holds: no criterion failed, and none hangs on one policy or person."""
+        hanging = {each.letter for each in self.fragile}
+        claims = dict.fromkeys((each.claim for each in self.criteria), True)
+        for each in self.criteria:
+            claims[each.claim] &= each.passed is not False and each.letter not in hanging
+        return claims
 
     @property
     def passed(self) -> bool:
-        """Whether no criterion failed."""
-        return all(each.passed is not False for each in self.criteria)
+        """Whether the suite is admitted: its first claim holds, and not for the control."""
+        control = self.control is not None and self.control.passed
+        return next(iter(self.claims.values())) and not control
 
 
-def players(task: str) -> tuple[str, ...]:
-    """Return the names of all policies that the test plays: level-keepers, and the task's own."""
-    own = own_policies(task)
-    return (*KEEPERS, *(name for name in policies_by_task().get(task, ()) if name in own))
+def cast(suite: Suite) -> dict[str, AgentSpec]:
+    """Return the robots that play a suite, by name: policies, settings, references and hold."""
+    task = suite.scenarios[0].task.name
+    names = players(task)
+    settings = [text for name in names for text in other_settings(name)]
+    found: dict[str, AgentSpec] = {
+        text: PolicySpec(text=text) for text in (HOLD, *names, *settings)
+    }
+    if has_best_known(suite):
+        found[BEST_KNOWN] = BestKnown(task=task)
+    if has_blind_reference(task):
+        found[BLIND] = BlindReference(task=task)
+    return found
 
 
-def trained(name: str) -> bool:
-    """Return whether a policy is a network that was trained with the population of a suite."""
-    return issubclass(PolicySpec(text=name).load(), TouchController)
+def lifts_to_play(suite: Suite) -> int:
+    """Return the number of lifts of a test, without those of its control."""
+    return (len(cast(suite)) + 1) * suite.size
 
 
 def admission_of(
     suite: Suite,
-    names: Sequence[str],
     *,
     pairs: NDArray[np.float64] | None = None,
+    control: Admission | None = None,
     executor: Executor | None = None,
-    progress: Callable[[int], None] = lambda episodes: None,
+    progress: Progress = lambda episodes: None,
 ) -> Admission:
-    """Test a suite; bounds that are shipped are not played again.
+    """Test a suite.
 
     Parameters
     ----------
     suite
-        The suite.
-    names
-        The policies, :data:`KEEPERS` among them; see :func:`players`.
+        The suite; every person has lifts with every behaviour.
     pairs
         The result of :func:`.cross_play`; None if no pair was trained.
+    control
+        The result of the negative control; None if the suite is the control.
     executor, progress
         As for :func:`.run_suite`.
 
     Raises
     ------
     InputError
-        If the suite's task has no oracle.
+        If the suite has too few people or lifts of each, or not all with every behaviour.
     """
-
-    def played(name: str) -> Run:
-        return run_suite(PolicySpec(text=name), suite, executor=executor, progress=progress)
-
-    limits = suite_bounds(suite)
-    if ORACLE not in limits:
-        raise InputError(f"{suite.name} has lifts of a task without an oracle")
-    bounds = known_bounds(limits, suite, executor=executor, progress=progress)
+    task = suite.scenarios[0].task.name
+    names, robots = players(task), cast(suite)
+    play = partial(run_suite, suite=suite, executor=executor, progress=progress)
     human_human = human_human_run(suite, executor=executor, progress=progress)
-    hold = played(HOLD)
-    runs = {name: played(name) for name in names}
-    published = PUBLISHED.get(suite.scenarios[0].task.name)
-    playing = {HUMAN_HUMAN_LABEL: human_human, HOLD: hold, **runs}
-    everybody = bounds | {name: ScoreTable.of(run) for name, run in playing.items()}
+    played = Played.of(
+        {HUMAN_HUMAN_LABEL: ScoreTable.of(human_human)}
+        | {name: ScoreTable.of(play(spec)) for name, spec in robots.items()}
+    )
+    references = tuple(name for name in (BEST_KNOWN, BLIND) if name in robots)
+    evidence = Evidence(
+        played=played,
+        policies=names,
+        references=references,
+        settings=tuple(n for n in robots if n not in (HOLD, *names, *references)),
+        alone=frozenset(n for n in names if acts_alone(n)) | ({BLIND} & set(references)),
+        idle=HOLD,
+        two_people=HUMAN_HUMAN_LABEL,
+    )
+    criteria = (
+        needs_partner(evidence),
+        interaction(evidence),
+        rank_changes(evidence),
+        conventions(pairs),
+        like_people(compared(human_human), NOT_COMPARED.get(task, "nothing was published")),
+        no_free_ride(evidence),
+    )
     return Admission(
         suite=suite.name,
         digest=suite.digest,
-        means={name: each.mean for name, each in everybody.items()},
-        by_person={name: person_means_mm(each) for name, each in everybody.items()},
-        criteria=(
-            room(bounds[ORACLE].mean, {name: run for name, run in runs.items() if name in KEEPERS}),
-            interaction(
-                {name: run for name, run in runs.items() if not trained(name)},
-                {name: run for name, run in runs.items() if trained(name)},
-            ),
-            rank_changes(runs),
-            conventions(pairs),
-            *([] if published is None else [like_people(human_human, published)]),
-            no_free_ride(hold, human_human),
-        ),
+        means=played.means,
+        criteria=criteria,
+        fragile=fragile_verdicts(evidence, criteria),
+        control=control,
     )

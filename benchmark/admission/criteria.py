@@ -1,27 +1,34 @@
-"""The criteria of admission, each with a figure, a bar and its meaning."""
+"""The criteria of admission, each with a figure, its 95 % interval, a bar and a verdict."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from itertools import combinations
 from typing import Final
 
 import numpy as np
-from colift.benchmark.admission.published import Published
-from colift.benchmark.admission.variance import variance_shares
+from colift.benchmark.admission.evidence import Evidence
+from colift.benchmark.admission.jackknife import ratio_interval, spread
+from colift.benchmark.admission.played import Played
+from colift.benchmark.admission.published import Compared
+from colift.benchmark.admission.swaps import FAMILY, swaps
+from colift.benchmark.admission.variance import VarianceShares, variance_shares
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
-from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.scores import ScoreTable, stratum
-from colift.benchmark.statistics.estimate import paired_difference
+from colift.benchmark.statistics import FloatArray, Interval
 from numpy.typing import NDArray
 
-ROOM: Final = 3.0
-"""Least error of the best level-keeper, as a multiple of the oracle's."""
+PARTNER: Final = 1.5
+"""Least error of a robot that acts alone, over that of the best known: one that heeds its partner
+leaves at most two thirds of it."""
 
 INTERACTION: Final = 0.2
-"""Least share of the variance that is interaction of policy and human."""
+"""Least share of the interaction of policy and person in the variance between people."""
 
 IDLE: Final = 2.0
-"""Least error of a robot that does nothing, as a multiple of the human-human baseline's."""
+"""Least error of a robot that does nothing, as a multiple of two people's."""
+
+COORDINATION: Final = "the robot needs its partner"
+ADAPTATION: Final = "the robot needs to know the person"
+INFERENCE: Final = "the robot needs to find out what it is not told"
+"""What a suite can claim."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,80 +36,107 @@ class Criterion:
     """One criterion, as measured."""
 
     letter: str
+    claim: str
+    """The claim that it tests."""
     what: str
     """The condition in words."""
-    figure: float | None
-    """The measured figure; None if there was nothing to measure."""
     bar: str
     """The limit of the figure, in words."""
-    passed: bool | None
-    """Whether the figure is within the limit; None if there was nothing to measure."""
     detail: str
     """The underlying figures, in words."""
+    figure: float | None = None
+    """The measured figure; None if it was not compared."""
+    ci95: Interval | None = None
+    """Its 95 % interval; None if it was not compared."""
+    passed: bool | None = None
+    """Whether the whole interval is within the limit; None if it was not compared."""
 
 
-def room(oracle: float, keepers: Mapping[str, Run]) -> Criterion:
-    """Return whether an oracle with this mean RMSE [mm] is far better than a level table."""
-    best = min(keepers, key=lambda name: mean_mm(keepers[name]))
-    ratio = mean_mm(keepers[best]) / oracle
-    return Criterion(
+def needs_partner(evidence: Evidence) -> Criterion:
+    """Return whether robots that are blind to the partner are worse than the best known one."""
+    means = evidence.played.part(evidence.causal)
+    blind = [name for name in evidence.causal if name in evidence.alone]
+
+    def best(played: Played, names: list[str]) -> str:
+        found = played.typical
+        return min(names, key=lambda name: found[name])
+
+    def ratio(played: Played) -> float:
+        found = played.typical
+        return found[best(played, blind)] / min(found.values())
+
+    stated = Criterion(
         letter="a",
-        what="an oracle is far better than the best level-keeper",
-        figure=ratio,
-        bar=f"at least {ROOM:g}",
-        passed=ratio >= ROOM,
-        detail=f"{best} {mean_mm(keepers[best]):.2f} mm, oracle {oracle:.2f} mm",
+        claim=COORDINATION,
+        what="acting alone costs: best robot that is blind to the partner, over best known",
+        bar=f"at least {PARTNER:g}",
+        detail="no robot that is blind to the partner was played",
+    )
+    if not blind:
+        return stated
+    figure, found = ratio(means), means.typical
+    alone, known = best(means, blind), best(means, list(means.players))
+    low, high = ratio_interval(figure, _without_people(means, ratio))
+    return replace(
+        stated,
+        figure=figure,
+        ci95=(low, high),
+        passed=low >= PARTNER,
+        detail=f"{alone} {found[alone]:.2f} mm, {known} {found[known]:.2f} mm",
     )
 
 
-def interaction(runs: Mapping[str, Run], trained: Mapping[str, Run]) -> Criterion:
-    """Return whether the best policy depends on the person.
+def interaction(evidence: Evidence) -> Criterion:
+    """Return whether the best policy depends on the person; policies count whatever their origin.
 
-    Parameters
-    ----------
-    runs
-        Runs of policies designed by hand, each with its own assumptions about people.
-    trained
-        Runs of policies that were trained with the suite's population. They are reported, but do
-        not count: a policy that has learned to cooperate with everybody leads everywhere, and its
-        lead adds to the variance of policies, however different the people are.
+    The interval is that of other people and other policies. The interaction itself must also be
+    beyond its noise, since a share of nothing can be anything.
     """
-    people = list(dict.fromkeys(each.subject for each in next(iter(runs.values())).episodes))
-
-    def by_person(some: Mapping[str, Run]) -> list[list[float]]:
-        return [[_log_mean(run, person) for person in people] for run in some.values()]
-
-    shares, all_shares = (variance_shares(by_person(some)) for some in (runs, {**runs, **trained}))
-    cells = list(dict.fromkeys(stratum(each) for each in next(iter(runs.values())).episodes))
-    fine = variance_shares(
-        [[_log_mean(run, person, way) for way, person in cells] for run in runs.values()]
-    )
+    played = evidence.played.part(evidence.policies)
+    shares = variance_shares(played.errors)
+    left = [
+        [variance_shares(np.delete(played.errors, i, axis)) for i in range(count)]
+        for axis, count in enumerate(played.errors.shape[:2])
+        if count > 2
+    ]
+    share = spread(*([each.between_people for each in some] for some in left))
+    itself = spread(*([each.variance for each in some] for some in left))
+    low, high = share.around(shares.between_people)
+    beyond = itself.around(shares.variance)[0] > 0.0
     return Criterion(
         letter="b",
-        what="which policy is good depends on the human: share of the variance",
-        figure=shares.interaction,
+        claim=ADAPTATION,
+        what="which policy is good depends on the person: share in the variance between people",
         bar=f"at least {INTERACTION:g}",
-        passed=shares.interaction >= INTERACTION,
-        detail=f"policy {shares.policy:.2f}, person {shares.human:.2f}, interaction "
-        f"{shares.interaction:.2f}; with persons and behaviours {fine.interaction:.2f}"
-        + (f"; with {', '.join(trained)} {all_shares.interaction:.2f}" if trained else ""),
+        figure=shares.between_people,
+        ci95=(low, high),
+        passed=low >= INTERACTION and beyond,
+        detail=_shares_in_words(shares, len(played.players), len(played.people)),
     )
 
 
-def rank_changes(runs: Mapping[str, Run]) -> Criterion:
-    """Return whether two policies exist, each better than the other with some person."""
-    changes = []
-    for one, other in combinations(runs, 2):
-        better = _better_with(runs[one], runs[other])
-        if better[0] and better[1]:
-            changes.append(f"{one} with {better[0][0]}, {other} with {better[1][0]}")
+def rank_changes(evidence: Evidence) -> Criterion:
+    """Return whether two policies exist, each better than the other with some people."""
+    played = evidence.played.part(evidence.policies + evidence.settings)
+    found = swaps(played)
+    best = found[0]
+    pairs = len(played.players) * (len(played.players) - 1) // 2
+    count = sum(swap.p <= FAMILY for swap in found)
+    leads = ", ".join(
+        f"{lead.policy} with {lead.people} ({lead.ratio:.2f} [{lead.ci95[0]:.2f}, "
+        f"{lead.ci95[1]:.2f}])"
+        for lead in best.leads
+    )
     return Criterion(
         letter="c",
-        what="policies change rank between people, beyond chance",
-        figure=float(len(changes)),
-        bar="at least 1 pair",
-        passed=bool(changes),
-        detail=changes[0] if changes else "no pair",
+        claim=ADAPTATION,
+        what="two policies exist, each better with some people: error of the worse, over the other",
+        bar="above 1",
+        figure=best.least.ratio,
+        ci95=best.least.ci95,
+        passed=best.least.ci95[0] > 1.0,
+        detail=f"{count} of {pairs} pairs; clearest: {leads} of {len(played.people)} people; the "
+        "intervals hold for all pairs together",
     )
 
 
@@ -112,90 +146,111 @@ def conventions(played: NDArray[np.float64] | None) -> Criterion:
     Parameters
     ----------
     played
-        (n, n) mean RMSE of each person with each robot of n pairs [mm]; None: no pair was trained.
+        (n, n) mean RMSE of each person with each robot of n pairs [mm], three or more; None: no
+        pair was trained.
     """
     stated = Criterion(
         letter="d",
-        what="pairs that learned apart fail with each other's partners: error across, over own",
-        figure=None,
-        bar="stated",
-        passed=None,
-        detail="no pair was trained for this test: nothing is known",
+        claim=COORDINATION,
+        what="pairs that learned apart fail with each other: error across, over own",
+        bar="above 1",
+        detail="no pair was trained for this test",
     )
     if played is None:
         return stated
+
+    def own_across(errors: FloatArray) -> tuple[float, float]:
+        count, own = len(errors), float(errors.trace())
+        return own / count, (float(errors.sum()) - own) / (count * (count - 1))
+
+    def ratio(errors: FloatArray) -> float:
+        own, across = own_across(errors)
+        return across / own
+
     count = len(played)
-    own = float(played.trace()) / count
-    across = (float(played.sum()) - count * own) / (count * (count - 1))
-    words = "they do better with themselves" if across > own else "they do not"
-    detail = f"{count} pairs in the twin: {own:.2f} mm with themselves, {across:.2f} mm across"
-    return replace(stated, figure=across / own, passed=True, detail=f"{detail}: {words}")
+    left = [ratio(np.delete(np.delete(played, i, 0), i, 1)) for i in range(count)]
+    low, high = ratio_interval(ratio(played), left)
+    own, across = own_across(played)
+    return replace(
+        stated,
+        figure=across / own,
+        ci95=(low, high),
+        passed=low > 1.0,
+        detail=f"{count} pairs in the twin: {own:.2f} mm with themselves, {across:.2f} mm across",
+    )
 
 
-def like_people(human_human: Run, published: Published) -> Criterion:
-    """Return whether the simulated pair lies in a published interval."""
-    found = published.measure(human_human)
+def like_people(compared: Compared | None, why: str) -> Criterion:
+    """Return whether two simulated people are in a published interval.
+
+    Parameters
+    ----------
+    compared
+        The published figure, and that of the simulated pair; None if there is none.
+    why
+        Why there is none, in words.
+    """
+    what = "two simulated people are like real ones"
+    if compared is None:
+        return Criterion(letter="e", claim=COORDINATION, what=what, bar="as published", detail=why)
+    published, figure = compared.published, compared.figure
+    low, high = spread(compared.without_person).around(figure)
     return Criterion(
         letter="e",
-        what=f"two simulated people are like real ones: {published.what}",
-        figure=found,
+        claim=COORDINATION,
+        what=f"{what}: {published.what}",
         bar=published.interval,
-        passed=published.low <= found <= published.high,
+        figure=figure,
+        ci95=(low, high),
+        passed=published.low <= low and high <= published.high,
         detail=published.source,
     )
 
 
-def no_free_ride(hold: Run, human_human: Run) -> Criterion:
+def no_free_ride(evidence: Evidence) -> Criterion:
     """Return whether doing nothing, or dropping the table, costs more than two people do."""
-    ratio = mean_mm(hold) / mean_mm(human_human)
-    worst = max(each.scores["rmse_mm"] for each in human_human.episodes)
+    played = evidence.played.part((evidence.idle, evidence.two_people))
+
+    def ratio(some: Played) -> float:
+        return some.typical[evidence.idle] / some.typical[evidence.two_people]
+
+    figure = ratio(played)
+    low, high = ratio_interval(figure, _without_people(played, ratio))
+    worst = float(played.errors[1].max())
+    found = played.typical
     return Criterion(
         letter="f",
-        what="nobody earns by standing still or by dropping the table",
-        figure=ratio,
+        claim=COORDINATION,
+        what="nobody earns by standing still or by dropping the table: error of standing still, "
+        "over that of two people",
         bar=f"at least {IDLE:g}",
-        passed=ratio >= IDLE and worst < FAILED_FRAME_MM,
-        detail=f"hold {mean_mm(hold):.1f} mm, two people {mean_mm(human_human):.1f} mm (at most "
-        f"{worst:.0f}), a frame after a drop {FAILED_FRAME_MM:.0f} mm",
+        figure=figure,
+        ci95=(low, high),
+        passed=low >= IDLE and worst < FAILED_FRAME_MM,
+        detail=f"{evidence.idle} {found[evidence.idle]:.1f} mm, two people "
+        f"{found[evidence.two_people]:.1f} mm (at most {worst:.0f}), a frame after a drop "
+        f"{FAILED_FRAME_MM:.0f} mm",
     )
 
 
-def mean_mm(run: Run) -> float:
-    """Return the mean RMSE of a run [mm]."""
-    return float(np.mean([each.scores["rmse_mm"] for each in run.episodes]))
-
-
-def person_means_mm(played: ScoreTable) -> dict[str, float]:
-    """Return the mean RMSE with each person [mm]."""
-    people = dict.fromkeys(person for _, person in played.strata)
-    return {person: played.part(subject=person).mean for person in people}
-
-
-def _log_mean(run: Run, person: str, behaviour: str | None = None) -> float:
-    return float(
-        np.mean(
-            [
-                np.log(each.scores["rmse_mm"])
-                for each in run.episodes
-                if each.subject == person and behaviour in (None, each.behaviour)
-            ]
-        )
+def of_evidence(evidence: Evidence) -> tuple[Criterion, ...]:
+    """Return the criteria that follow from the errors of the suite's lifts: a, b, c and f."""
+    return (
+        needs_partner(evidence),
+        interaction(evidence),
+        rank_changes(evidence),
+        no_free_ride(evidence),
     )
 
 
-def _better_with(one: Run, other: Run) -> tuple[Sequence[str], Sequence[str]]:
-    """Return the people with whom each of two policies is better, beyond a 95 % interval."""
-    found: tuple[list[str], list[str]] = ([], [])
-    pairs = list(zip(one.episodes, other.episodes, strict=True))
-    for person in dict.fromkeys(each.subject for each in one.episodes):
-        own = [pair for pair in pairs if pair[0].subject == person]
-        difference = paired_difference(
-            [a.scores["rmse_mm"] for a, _ in own],
-            [b.scores["rmse_mm"] for _, b in own],
-            [a.behaviour for a, _ in own],
-        )
-        if difference.ci95[1] < 0.0:
-            found[0].append(person)
-        elif difference.ci95[0] > 0.0:
-            found[1].append(person)
-    return found
+def _without_people(played: Played, figure: Callable[[Played], float]) -> list[float]:
+    """Return a figure without each of the people."""
+    return [figure(played.without(person=person)) for person in played.people]
+
+
+def _shares_in_words(shares: VarianceShares, policies: int, people: int) -> str:
+    return (
+        f"of all variance: policy {shares.policy:.2f}, person {shares.person:.2f}, interaction "
+        f"{shares.interaction:.2f}, of {policies} policies and {people} people, without the noise "
+        "of single lifts"
+    )

@@ -1,4 +1,4 @@
-"""The shares of policy, human and their interaction in the variance of errors."""
+"""The shares of policy, person and their interaction in the variance of errors."""
 
 from dataclasses import dataclass
 
@@ -9,40 +9,75 @@ from numpy.typing import ArrayLike
 
 @dataclass(frozen=True, kw_only=True)
 class VarianceShares:
-    """Shares of the variance of a table of policies (rows) and humans (columns); their sum is 1."""
+    """Shares in the variance of the expected log errors of policies and people.
+
+    A share may be below 0 where there is nothing but noise.
+    """
 
     policy: float
-    """Share of the row means: some policies are better with everybody."""
-    human: float
-    """Share of the column means: some humans are harder for every policy."""
+    """Some policies are better with everybody."""
+    person: float
+    """Some people are harder for every policy."""
     interaction: float
-    """Share of the rest: some policies suit some humans."""
+    """Some policies suit some people."""
+    variance: float
+    """The variance of the interaction itself, of logarithms."""
+
+    @property
+    def between_people(self) -> float:
+        """Share of the interaction in what people change, whatever the policies' means."""
+        person, suits = max(self.person, 0.0), max(self.interaction, 0.0)
+        return suits / (person + suits) if suits else 0.0
 
 
-def variance_shares(table: ArrayLike) -> VarianceShares:
-    r"""Return the shares of a two-way analysis of variance without replication.
+def variance_shares(errors: ArrayLike) -> VarianceShares:
+    r"""Return the shares of an analysis of variance with the noise of single lifts removed.
 
-    .. math:: x_{ph} = \mu + \alpha_p + \beta_h + \gamma_{ph}
+    The logarithm of the error of the policy p with the person h in the person's lift k is
+
+    .. math::
+
+        x_{phk} = \mu + \alpha_p + \beta_h + \gamma_{ph} + \lambda_{hk} + \delta_{pk}
+                  + \varepsilon_{phk}
+
+    where k is the same behaviour for everybody. The mean squares of policies, people, their
+    interaction, lifts and the rest give the variances of :math:`\alpha`, :math:`\beta` and
+    :math:`\gamma` without bias. With one lift of each behaviour, what suits a person with one
+    behaviour alone counts as noise.
 
     Parameters
     ----------
-    table
-        (policies, humans) mean of the logarithm of the error.
+    errors
+        (policies, people, lifts) positive errors.
 
     Raises
     ------
     InputError
-        If there are fewer than two policies or humans, or all values are the same.
+        If there are fewer than two policies, people or lifts.
     """
-    values = np.asarray(table, dtype=np.float64)
-    if values.ndim != 2 or min(values.shape) < 2:
-        raise InputError(f"shares need two policies and two humans or more, got {values.shape}")
-    centred = values - values.mean()
-    rows, columns = centred.mean(axis=1), centred.mean(axis=0)
-    left = centred - rows[:, np.newaxis] - columns
-    parts = [float((rows**2).mean()), float((columns**2).mean()), float((left**2).mean())]
-    total = sum(parts)
-    if total == 0.0:
-        raise InputError("all policies have the same error with all humans")
-    policy, human, interaction = (part / total for part in parts)
-    return VarianceShares(policy=policy, human=human, interaction=interaction)
+    x = np.log(np.asarray(errors, dtype=np.float64))
+    if x.ndim != 3 or min(x.shape) < 2:
+        raise InputError(f"shares need 2 policies, people and lifts or more, got {x.shape}")
+    p, h, k = x.shape
+    x = x - x.mean()
+    cells, lifts, ways = x.mean(axis=2), x.mean(axis=0), x.mean(axis=1)
+    rows, columns, kinds = cells.mean(axis=1), cells.mean(axis=0), lifts.mean(axis=0)
+    suits = cells - rows[:, np.newaxis] - columns
+    shared = lifts - columns[:, np.newaxis] - kinds
+    ways = ways - rows[:, np.newaxis] - kinds
+    rest = x - cells[..., np.newaxis] - (shared + kinds) - ways[:, np.newaxis]
+    of_policy = h * k * (rows**2).sum() / (p - 1)
+    of_person = p * k * (columns**2).sum() / (h - 1)
+    of_suits = k * (suits**2).sum() / ((p - 1) * (h - 1))
+    of_lifts = p * (shared**2).sum() / ((h - 1) * (k - 1))
+    of_rest = (rest**2).sum() / ((p - 1) * (h - 1) * (k - 1))
+    parts = (
+        (of_policy - of_suits) / (h * k),
+        (of_person - of_suits - of_lifts + of_rest) / (p * k),
+        (of_suits - of_rest) / k,
+    )
+    total = sum(max(part, 0.0) for part in parts)
+    policy, person, interaction = (float(part / total) if total > 0 else 0.0 for part in parts)
+    return VarianceShares(
+        policy=policy, person=person, interaction=interaction, variance=float(parts[2])
+    )

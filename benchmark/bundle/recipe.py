@@ -5,12 +5,12 @@ import io
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, Self
 
 from colift.agents.humans import Behaviour, Recorded, load_recordings
-from colift.agents.humans.recordings import COLUMNS
+from colift.agents.humans.recordings import COLUMNS, PERSON
 from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
 from colift.benchmark.bundle.files import INPUTS, MANIFEST, RECORDINGS
@@ -18,6 +18,7 @@ from colift.benchmark.bundle.inputs import dump_inputs, parse_inputs
 from colift.benchmark.bundle.json_text import of_type, pick
 from colift.benchmark.channels import Channel
 from colift.benchmark.channels.recorded import parse_recorded, recorded
+from colift.benchmark.episode.conditions import Conditions, read_conditions
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import (
@@ -40,9 +41,12 @@ LONGEST_NAME: Final = 1000
 
 FROM_NAMES: Final = (
     "its behaviours, subjects and task must be registered, with their own parameters, and its "
-    "scenarios must have the same partner and timing"
+    "scenarios must have the same partner, timing and conditions"
 )
 """Condition on suites that have a recipe."""
+
+CONDITIONS: Final = "conditions"
+"""The key of the conditions; without it there are none."""
 
 FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
 """The file with the trials of a behaviour."""
@@ -61,6 +65,8 @@ class Recipe:
     control_period: float
     latency: float
     task: str = LEVEL.name
+    conditions: Conditions | None = None
+    """Ranges of what is drawn for each lift; None if nothing is."""
     recordings: bytes | None = None
     """The recordings as a CSV file, if recorded lifts are played."""
     inputs: bytes | None = None
@@ -73,7 +79,7 @@ class Recipe:
         """Return the recipe of a suite and a channel; None if it cannot be made from names.
 
         This is the case for behaviours and subjects that are not registered, or whose parameters
-        were changed, and for scenarios that differ in partner, control period, latency or task.
+        were changed, and for scenarios that differ in partner, timing, conditions or task.
         """
         first = suite.scenarios[0]
         recipe = cls(
@@ -84,6 +90,7 @@ class Recipe:
             control_period=float(first.control_period),
             latency=float(first.latency),
             task=first.task.name,
+            conditions=first.conditions,
             recordings=_recordings(suite.scenarios),
             inputs=dump_inputs(suite.scenarios),
             channel=channel,
@@ -152,9 +159,10 @@ class Recipe:
         # A name with a colon would name a file.
         if trial or ":" in behaviour:
             raise InputError(f"there is no behaviour {behaviour!r:.80} with trial {trial!r:.80}")
-        return make_scenario(
+        made = make_scenario(
             behaviour, subject, self.partner, self.control_period, self.latency, self.task
         )
+        return replace(made, conditions=self.conditions)
 
     def plain(self) -> dict[str, Any]:
         """Return the recipe for JSON: everything except recordings and hands."""
@@ -167,6 +175,8 @@ class Recipe:
             "seeds": list(self.seeds),
             "scenarios": ["/".join(filter(None, names)) for names in self.scenarios],
         }
+        if self.conditions is not None:
+            content[CONDITIONS] = self.conditions.plain()
         return content if self.channel is None else {**content, "channel": recorded(self.channel)}
 
     @classmethod
@@ -208,6 +218,7 @@ class Recipe:
             control_period=pick(content, "control_period", float, MANIFEST),
             latency=pick(content, "latency", float, MANIFEST),
             task=pick(content, "task", str, MANIFEST),
+            conditions=_conditions(content),
             recordings=recordings,
             inputs=inputs,
             channel=_channel(content),
@@ -236,6 +247,13 @@ def _channel(content: dict[str, Any]) -> Channel | None:
     return parse_recorded(channel, f"{MANIFEST}: channel")
 
 
+def _conditions(content: dict[str, Any]) -> Conditions | None:
+    if CONDITIONS not in content:
+        return None
+    ranges = pick(content, CONDITIONS, dict, MANIFEST)
+    return read_conditions(ranges, f"{MANIFEST}: {CONDITIONS}")
+
+
 def _names(name: str) -> tuple[str, str, str]:
     """Return behaviour, subject and trial of a scenario's name; a trial may have slashes."""
     behaviour, _, rest = name.partition("/")
@@ -254,10 +272,12 @@ def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
         return None
     text = io.StringIO()
     writer = csv.writer(text, quoting=csv.QUOTE_NONNUMERIC, lineterminator="\n")
-    writer.writerow(COLUMNS)
+    known = any(recording.person for recording in recordings.values())
+    writer.writerow((*COLUMNS, PERSON) if known else COLUMNS)
     for name, recording in recordings.items():
+        person = (recording.person,) if known else ()
         for time, height in zip(recording.times, recording.heights, strict=True):
-            writer.writerow((name, time, height))
+            writer.writerow((name, time, height, *person))
     return text.getvalue().encode(errors="replace")
 
 

@@ -35,7 +35,8 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     metrics
         The metrics of the suite's task.
     """
-    estimate = _object({"mean": NUMBER, "ci95": INTERVAL})
+    interval = {"anyOf": [INTERVAL, {"type": "null"}]}
+    estimate = _object({"mean": NUMBER, "ci95": interval})
     means = {
         name: _object(
             {
@@ -54,14 +55,23 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
             {
                 "mean": NUMBER,
                 "iqm": _of(NUMBER, "Interquartile mean."),
-                "ci95": _of(INTERVAL, "95 % confidence interval of the mean."),
+                "ci95": _of(
+                    interval,
+                    "95 % confidence interval of the mean, for other people; null if all lifts are "
+                    "of one person.",
+                ),
             },
             _label(metrics[LEADING]),
         ),
         "vs_human": {
             "anyOf": [estimate, {"type": "null"}],
-            "description": "Mean RMSE divided by that of the human-human baseline.",
+            "description": "RMSE divided by that of the human-human baseline on the same lift: "
+            "geometric mean over the lifts.",
         },
+        "rougher": _of(
+            {"type": ["array", "null"], "items": TEXT},
+            "Metrics by which the policy is rougher than two people; null if that is not known.",
+        ),
         **{name: mean for name, mean in means.items() if name != LEADING},
         "step_ms": _object(
             {"p50": NUMBER_OR_NULL, "p99": NUMBER_OR_NULL},
@@ -80,6 +90,9 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
         **means,
         "human_human_rmse_mm": _object(
             {"mean": NUMBER_OR_NULL}, "RMSE of the human-human baseline in the stratum [mm]."
+        ),
+        "vs_human": _object(
+            {"mean": NUMBER_OR_NULL}, "Geometric mean of the ratio to it over these lifts."
         ),
     }
     baseline = {

@@ -6,8 +6,9 @@ from typing import Final
 
 from colift.base.errors import InputError
 from colift.base.near_names import did_you_mean
-from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.channel import Channel
 from colift.benchmark.channels.reading import read_channel
+from colift.benchmark.links.link import Link
 
 
 def _both(link: Link) -> Channel:

@@ -8,7 +8,8 @@ from typing import Any, Final
 from colift.base.errors import InputError
 from colift.base.near_names import did_you_mean
 from colift.base.text import parse_toml, read_bytes
-from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.channel import Channel
+from colift.benchmark.links.link import Link
 
 LONGEST: Final = 16 * 1024
 """Largest file [bytes]: the time to read TOML can grow with the square of its length."""

@@ -5,9 +5,10 @@ from typing import Any, Final
 
 from colift.base.errors import InputError
 from colift.base.identity import code_hash
-from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.channel import Channel
 from colift.benchmark.channels.reading import parse_channel
 from colift.benchmark.channels.teleoperated import teleoperated
+from colift.benchmark.links.link import Link
 
 CODE: Final = "code"
 """The key of the hash."""

@@ -5,15 +5,13 @@ delays", Lund 1998): a policy acts when an observation arrives, never twice on t
 """
 
 import heapq
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from colift.agents.agent import FRAME
-from colift.benchmark.channels.channel import Channel, Link
+from colift.benchmark.channels.channel import Channel
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.links.delays import link_delays
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +51,7 @@ def schedule(channel: Channel, frames: int, seed: int) -> Iterator[Turn]:
         whatever happens to the others.
     """
     down, up = (
-        _delays(link, derive_seed(seed, f"{name}/loss"), derive_seed(seed, f"{name}/jitter"))
+        link_delays(link, derive_seed(seed, f"{name}/loss"), derive_seed(seed, f"{name}/jitter"))
         for name, link in (("down", channel.down), ("up", channel.up))
     )
     observations: list[tuple[int, int]] = []  # Heaps of the frame of arrival, and the step.
@@ -86,26 +84,3 @@ def _arrived(heap: list[tuple[int, int]], now: int) -> Iterator[tuple[int, int]]
     """Take from a heap everything that has arrived by a frame, the earliest first."""
     while heap and heap[0][0] <= now:
         yield heapq.heappop(heap)
-
-
-def _delays(link: Link, loss_seed: int, jitter_seed: int) -> Iterator[int | None]:
-    """Yield the delay of each message in frames; None if it is lost."""
-    chance = np.random.default_rng(loss_seed)
-    jitter = _jitter(link, np.random.default_rng(jitter_seed))
-    lost = chance.random() < link.loss
-    while True:
-        frames = math.floor((link.delay + jitter()) / FRAME + 0.5)
-        yield None if lost else frames
-        lost = chance.random() < (1.0 - link.ends_burst if lost else link.begins_burst)
-
-
-def _jitter(link: Link, rng: np.random.Generator) -> Callable[[], float]:
-    """Return a function that draws a jitter [s]."""
-    mean, deviation = link.jitter_mean, link.jitter_deviation
-    if deviation == 0.0:
-        return lambda: mean
-    spread = (deviation / mean) ** 2
-    if link.jitter == "gamma":
-        return lambda: float(rng.gamma(1.0 / spread, mean * spread))
-    variance = math.log1p(spread)
-    return lambda: float(rng.lognormal(math.log(mean) - variance / 2, math.sqrt(variance)))

@@ -9,18 +9,26 @@ from colift.benchmark.comparison.ranking import Ranking
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.goals import goal_scores
+from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.tasks.level.table import MOSTLY_CLIPPED
 
 SURE: Final = 0.975
 """Probability above which the 95 % interval of a difference excludes zero."""
 
+RANK: Final = (
+    "Rank: 1 + the number of policies that are better beyond chance; a larger error never has a "
+    "smaller rank."
+)
+"""What a rank means, in one sentence."""
+
 _RANK, _BASELINE, _INTERVALS = (
-    "Rank: the difference between policies of the same rank and the first of that rank is not "
-    "significant (paired sign-flip test, Holm-corrected, 5 %).",
+    RANK + " All pairs are tested together, by sign flips of people: the probability that any "
+    "equal policies are told apart is at most 6 %.",
     "Human-human baseline: two simulated people on the same lifts. vs_human is the RMSE divided by "
-    "that of the baseline: 1 is as {} as with a human partner, less is better.",
-    "Intervals: 95 %, by bootstrap over the seeds within each behaviour and subject. They show how "
-    "much the value would vary with other lifts of the same people.",
+    "that of the baseline on the same lift, geometric mean: 1 is as {} as with a human partner, "
+    "less is better.",
+    "Intervals: 95 %, between people, each with all of their lifts. They show how much the value "
+    "would vary with other people from the same population.",
 )
 """Sentences on how to read a comparison of any task."""
 
@@ -29,13 +37,14 @@ Axes = tuple[Metric, Metric]
 
 RANKS_CAPTION: Final = (
     "Small print: 95 % intervals; for the time per step, the median above its 99th percentile. "
-    "Policies that share a rank do not differ significantly from the first of them."
+    f"{RANK}"
 )
 
 AGAINST_CAPTION: Final = (
     "Paired difference of each policy's RMSE to the best policy's, with its 95 % interval; p value "
-    "of this difference, Holm-corrected; share of the lifts in which its RMSE is the lower one; "
-    f"probability that its mean RMSE on such lifts is below the {HUMAN_HUMAN_LABEL}'s."
+    "of this difference, corrected for all pairs; share of the lifts in which its RMSE is the "
+    f"lower one; probability that vs_human is below 1, the {HUMAN_HUMAN_LABEL}'s, with other "
+    "people."
 )
 
 
@@ -62,7 +71,7 @@ def picture_caption(axes: Axes, front: Sequence[str]) -> str:
     return (
         "Higher and further left is better. Bars are 95 % intervals. "
         f"{joined if front else ''}The diamond is the {HUMAN_HUMAN_LABEL}; "
-        "squares are bounds, the limits of what a policy could reach."
+        "squares are references, which have no rank."
     )
 
 
@@ -80,7 +89,7 @@ def picture_title(comparison: Comparison) -> str:
         f"How {level} and how {smooth}: {title(comparison)}\n"
         f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
         f"Orange: no other policy is both {more_level} and {smoother}."
-        + (" Squares: bounds." if comparison.results.bounds else "")
+        + (" Squares: references." if comparison.results.references else "")
     )
 
 
@@ -91,21 +100,21 @@ def verdict(comparison: Comparison) -> str:
     best, *others = overall.policies
     text = (
         f"{best.name} is the {most_level}: {best.rmse_mm.mean:.1f} mm, "
-        f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s "
-        f"{overall.human_human_rmse_mm.mean:.1f} mm."
+        f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s error on the same lift "
+        f"(mean {overall.human_human_rmse_mm.mean:.1f} mm)."
     )
-    equals = [ranked.name for ranked in others if ranked.rank == best.rank]
+    equals = [ranked.name for ranked in others if ranked.same_as_best]
     if not overall.decisive:
-        text += f" But {overall.episodes} lifts are too few to rank the policies."
+        text += f" But {people_text(overall.people)} too few to rank the policies."
     elif equals:
         text += f" {_listed(equals)} cannot be distinguished from it."
-    if best.better_than_human > SURE:
+    if (best.better_than_human or 0.0) > SURE:
         return f"{text} It is {more_level} than two people."
     won = [
         ranking.name
         for ranking in comparison.behaviours
         for ranked in ranking.policies
-        if ranked.name == best.name and ranked.better_than_human > SURE
+        if ranked.name == best.name and (ranked.better_than_human or 0.0) > SURE
     ]
     return f"{text} On {_listed(won)} it is {more_level} than two people." if won else text
 
@@ -122,6 +131,14 @@ def failures(comparison: Comparison) -> list[str]:
                 f"as worst; first reason: {reasons[0]}"
             )
     return sentences
+
+
+def roughness(comparison: Comparison) -> list[str]:
+    """Return the meaning of the mark, and by which metrics each marked policy is rougher."""
+    marked = [ranked for ranked in comparison.overall.policies if ranked.rougher]
+    metrics = comparison.results.suite.metrics
+    by = (f"{ranked.name} by {by_which(ranked.rougher or (), metrics)}" for ranked in marked)
+    return [f"{MEANING} {'; '.join(by)}."] if marked else []
 
 
 def goals(comparison: Comparison) -> list[str]:
@@ -159,24 +176,26 @@ def parts_caption(kind: str, rankings: Sequence[Ranking]) -> str:
 
 def marks_caption(mark: str, rankings: Sequence[Ranking]) -> str:
     """Return the meaning of the mark of the best, or the reason why there is none."""
-    meaning = f"{mark}: the best policy, and those not significantly different from it."
+    meaning = f"{mark}: no policy is better beyond chance."
     few = [ranking for ranking in rankings if not ranking.decisive]
     if not few:
         return meaning
     if len(few) == len(rankings):
-        lifts = " or ".join(map(str, sorted({ranking.episodes for ranking in few})))
-        return (
-            f"No policy is marked as the best: {lifts} lifts per column are too few for a "
-            "significant difference at 5 %."
-        )
-    return f"{meaning} No mark where the lifts are too few: {_listed([s.name for s in few])}."
+        most = max(ranking.people for ranking in few)
+        return f"No policy is marked as the best: {people_text(most)} too few for any difference."
+    return f"{meaning} No mark where the people are too few: {_listed([s.name for s in few])}."
 
 
 def undecided(overall: Ranking) -> str:
     """Return the reason why there are no ranks; empty if there are ranks."""
     if overall.decisive:
         return ""
-    return f"No ranks: {overall.episodes} lifts are too few for a significant difference at 5 %."
+    return f"No ranks: {people_text(overall.people)} too few for any difference beyond chance."
+
+
+def people_text(count: int) -> str:
+    """Return a number of people, as the beginning of a sentence about them."""
+    return "a single person is" if count == 1 else f"{count} people are"
 
 
 def _praise(comparison: Comparison) -> tuple[tuple[str, str, str], tuple[str, str, str]]:

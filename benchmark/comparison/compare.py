@@ -1,11 +1,15 @@
 """The comparison of policies: on all episodes, by behaviour, by subject; their Pareto front."""
 
 from dataclasses import dataclass
+from typing import Final
 
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.comparison.ranking import Ranking, SubsetKind, rank_policies
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+
+MOST_SUBJECTS: Final = 10
+"""Most subjects for results by subject: of more, each has a few lifts, which say nothing alone."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -17,8 +21,9 @@ class Comparison:
     """On all episodes."""
     behaviours: tuple[Ranking, ...]
     subjects: tuple[Ranking, ...]
+    """Nothing where there are more than :data:`MOST_SUBJECTS`."""
     points: tuple[FrontPoint, ...]
-    """The policies, the least error first; then the human-human baseline and the bounds."""
+    """The policies, the least error first; then the human-human baseline and the references."""
 
     @property
     def front(self) -> tuple[str, ...]:
@@ -35,6 +40,7 @@ class Comparison:
 
 def compare(results: PairedResults) -> Comparison:
     """Return the comparison of the policies: overall, on each behaviour, with each subject."""
+    subjects = [subject for _, subject in results.human_human.strata]
     overall = rank_policies(results, "all", "all", range(len(results.human_human.strata)))
     return Comparison(
         results=results,
@@ -42,7 +48,9 @@ def compare(results: PairedResults) -> Comparison:
         behaviours=_parts(
             results, "behaviour", [behaviour for behaviour, _ in results.human_human.strata]
         ),
-        subjects=_parts(results, "subject", [subject for _, subject in results.human_human.strata]),
+        subjects=_parts(results, "subject", subjects)
+        if len(set(subjects)) <= MOST_SUBJECTS
+        else (),
         points=_points(results, overall),
     )
 
@@ -61,11 +69,11 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
     others = [
         FrontPoint(
             name=name,
-            rmse_mm=overall.references_rmse_mm[name],
+            rmse_mm=overall.unranked_rmse_mm[name],
             second=exact(baseline.means[second.name]),
-            kind="baseline" if name == HUMAN_HUMAN_LABEL else "bound",
+            kind="baseline" if name == HUMAN_HUMAN_LABEL else "reference",
         )
-        for name, baseline in results.references.items()
+        for name, baseline in results.unranked.items()
     ]
     return (*policies, *others)
 

@@ -16,7 +16,7 @@ from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.comparison.scatter.png import png
 from colift.benchmark.comparison.scatter.scene import make_scene
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.results.goals import goal_scores
 from colift.benchmark.suites.treatments import plain_treatments
 
@@ -26,7 +26,7 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
 
     ``policies`` covers all episodes; each of ``behaviours`` and ``subjects`` covers a part of them.
     A policy has the numbers of :class:`.RankedPolicy`. Where ``decisive`` is false, the
-    episodes are too few for any test, and all policies have rank 1. ``recordings`` is there if the
+    people are too few for any test, and all policies have rank 1. ``recordings`` is there if the
     suite has some: the sampling of each trial, and the changes to it.
     """
     suite = comparison.results.suite
@@ -54,8 +54,9 @@ def comparison_json(comparison: Comparison) -> dict[str, Any]:
         **({"recordings": recordings} if recordings else {}),
         "decisive": comparison.overall.decisive,
         "human_human": _baseline(comparison, HUMAN_HUMAN_LABEL),
-        "bounds": [
-            {"name": name, **_baseline(comparison, name)} for name in comparison.results.bounds
+        "references": [
+            {"name": name, **_baseline(comparison, reference_label(name))}
+            for name in comparison.results.references
         ],
         "policies": policies,
         "behaviours": [_part(ranking) for ranking in comparison.behaviours],
@@ -73,6 +74,7 @@ def _policy(ranked: RankedPolicy) -> dict[str, Any]:
         "rmse_mm": dataclasses.asdict(ranked.rmse_mm),
         "vs_human": dataclasses.asdict(ranked.vs_human),
         "better_than_human": ranked.better_than_human,
+        "rougher": None if ranked.rougher is None else list(ranked.rougher),
         "clipped": ranked.clipped,
         "to_best": None if to_best is None else dataclasses.asdict(to_best),
         **{
@@ -84,9 +86,9 @@ def _policy(ranked: RankedPolicy) -> dict[str, Any]:
 
 
 def _baseline(comparison: Comparison, name: str) -> dict[str, Any]:
-    baseline = comparison.results.references[name]
+    baseline = comparison.results.unranked[name]
     return {
-        "rmse_mm": dataclasses.asdict(comparison.overall.references_rmse_mm[name]),
+        "rmse_mm": dataclasses.asdict(comparison.overall.unranked_rmse_mm[name]),
         **{name: {"mean": mean} for name, mean in baseline.means.items()},
     }
 
@@ -126,12 +128,13 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
         *ranked.metrics.items(),
         ("to_best_mm", behind),
     ):
-        low, high = estimate.ci95 if estimate else (None, None)
+        low, high = (estimate and estimate.ci95) or (None, None)
         yield name, estimate.mean if estimate else None
         yield from ((f"{name}_low", low), (f"{name}_high", high))
     yield "to_best_p", behind.p if behind else None
     yield "to_best_share_better", behind.share_better if behind else None
     yield "better_than_human", ranked.better_than_human
+    yield "rougher", None if ranked.rougher is None else " ".join(ranked.rougher)
     yield from ((f"{name}_missing", ranked.scores.metric(name).missing) for name in ranked.metrics)
     yield "clipped", ranked.clipped
 

@@ -17,7 +17,7 @@ from colift.benchmark.statistics import Estimate
 
 @dataclass(frozen=True, kw_only=True)
 class FrontPoint:
-    """Error and second metric of a policy, of the human-human baseline or of a bound."""
+    """Error and second metric of a policy, of the human-human baseline or of a reference."""
 
     name: str
     rmse_mm: Estimate
@@ -26,7 +26,7 @@ class FrontPoint:
     """Mean of :func:`.second_axis` over the lifts that have a value; None if none has."""
     missing: int = 0
     """Lifts without a value."""
-    kind: Literal["policy", "baseline", "bound"] = "policy"
+    kind: Literal["policy", "baseline", "reference"] = "policy"
 
     def merit(self, metric: Metric) -> tuple[float, float]:
         """Return a sort key by the second metric: fewest lifts without it first, then the mean."""
@@ -36,7 +36,7 @@ class FrontPoint:
 
 def exact(value: float | None) -> Estimate | None:
     """Return a mean without a known interval as an estimate."""
-    return None if value is None else Estimate(mean=value, ci95=(value, value))
+    return None if value is None else Estimate(mean=value, ci95=None)
 
 
 def pareto_front(points: Sequence[FrontPoint], metric: Metric) -> tuple[FrontPoint, ...]:

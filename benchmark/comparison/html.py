@@ -13,6 +13,7 @@ from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, make_scene
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.rendering.page import Cell, Row, render
+from colift.benchmark.results.roughness import ROUGHER
 from colift.benchmark.statistics import Estimate
 
 AGAINST: Final = ("policy", "behind the best mm", "p", "lifts won", "P(better than humans)")
@@ -24,7 +25,7 @@ def html_page(comparison: Comparison) -> str:
     If each behaviour has one subject of its own, both tables would have the same numbers.
     """
     kinds = [("behaviour", comparison.behaviours)]
-    if not comparison.one_each:
+    if comparison.subjects and not comparison.one_each:
         kinds.append(("subject", comparison.subjects))
     axes = comparison.results.axes
     axis = captions.picture_axis(axes)
@@ -39,6 +40,7 @@ def html_page(comparison: Comparison) -> str:
         warnings=(
             *captions.goals(comparison),
             *captions.failures(comparison),
+            *captions.roughness(comparison),
             *captions.unit_warnings(comparison),
         ),
         pictures=[
@@ -72,17 +74,17 @@ def html_page(comparison: Comparison) -> str:
 def _ranks(comparison: Comparison) -> list[Row]:
     by_name = {policy.name: policy for policy in comparison.results.policies}
     rows = [_policy_row(comparison, s, by_name[s.name]) for s in comparison.overall.policies]
-    rows += [_baseline_row(comparison, name) for name in comparison.results.references]
+    rows += [_baseline_row(comparison, name) for name in comparison.results.unranked]
     return rows
 
 
 def _baseline_row(comparison: Comparison, name: str) -> Row:
-    baseline, overall = comparison.results.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+    baseline, overall = comparison.results.unranked[name], comparison.overall
+    rmse = overall.unranked_rmse_mm[name]
     cells = [
         Cell(""),
         _estimate(rmse, ".2f"),
-        Cell(f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}"),
+        Cell(f"{overall.unranked_vs_human[name].mean:.2g}"),
         *(Cell(metric.text(baseline.means[metric.name])) for metric in comparison.results.metrics),
         Cell(""),
     ]
@@ -95,13 +97,18 @@ def _policy_row(comparison: Comparison, ranked: RankedPolicy, policy: PolicyResu
     return Row(
         ranked.name,
         [
-            Cell(str(ranked.rank) if overall.decisive else "", best=overall.best(ranked)),
+            _rank(overall, ranked),
             _estimate(ranked.rmse_mm, ".2f"),
             _estimate(ranked.vs_human, ".2f"),
             *(_metric(metric, ranked) for metric in metrics),
             Cell("none") if steps.p50 is None else Cell(f"{steps.p50:.3f}", f"{steps.p99:.3f}"),
         ],
     )
+
+
+def _rank(overall: Ranking, ranked: RankedPolicy) -> Cell:
+    rank = str(ranked.rank) if overall.decisive else ""
+    return Cell(rank, ROUGHER if ranked.rougher else "", best=overall.best(ranked))
 
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> Cell:
@@ -137,8 +144,8 @@ def _parts(comparison: Comparison, rankings: Sequence[Ranking]) -> list[Row]:
             for ranking, column in zip(rankings, columns, strict=True)
         ]
         rows.append(Row(ranked.name, parts))
-    for name in rankings[0].references_rmse_mm:
-        means = [ranking.references_rmse_mm[name] for ranking in rankings]
+    for name in rankings[0].unranked_rmse_mm:
+        means = [ranking.unranked_rmse_mm[name] for ranking in rankings]
         errors = [_estimate(mean, digits(mean.mean)) for mean in means]
         rows.append(Row(name, errors, kind="baseline"))
     return rows

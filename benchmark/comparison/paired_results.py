@@ -1,4 +1,4 @@
-"""Results of policies, of the human-human baseline and of bounds on the same episodes."""
+"""Results of policies, of the human-human baseline and of references on the same episodes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from typing import Self
 from colift.benchmark.channels import Channel
 from colift.benchmark.episode.metric import LEADING, Metric, on_boards, second_axis
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import Suite
@@ -36,16 +36,16 @@ class PolicyResults:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class PairedResults:
-    """Results of policies, baseline and bounds on the same lifts, episode by episode."""
+    """Results of policies, baseline and references on the same lifts, episode by episode."""
 
     suite: Suite
     policies: tuple[PolicyResults, ...]
     human_human: ScoreTable
     """The human-human baseline."""
-    bounds: Mapping[str, ScoreTable] = field(default_factory=dict)
-    """The bounds, by name."""
+    references: Mapping[str, ScoreTable] = field(default_factory=dict)
+    """The references, by name."""
     channel: Channel | None = None
-    """The channel between the robot and every policy; baseline and bounds have none."""
+    """The channel between the robot and every policy; baseline and references have none."""
 
     @property
     def metrics(self) -> tuple[Metric, ...]:
@@ -59,6 +59,9 @@ class PairedResults:
         return metrics[LEADING], second_axis(metrics)
 
     @property
-    def references(self) -> dict[str, ScoreTable]:
-        """The human-human baseline, then the bounds, by name; none has a rank."""
-        return {HUMAN_HUMAN_LABEL: self.human_human, **self.bounds}
+    def unranked(self) -> dict[str, ScoreTable]:
+        """The human-human baseline, then the references, by label; none has a rank."""
+        return {
+            HUMAN_HUMAN_LABEL: self.human_human,
+            **{reference_label(name): each for name, each in self.references.items()},
+        }

@@ -1,4 +1,4 @@
-"""Playing a suite with policies, and with the human-human baseline and bounds if not shipped."""
+"""Playing a suite with policies, and with baseline and references where none are shipped."""
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
@@ -13,13 +13,13 @@ from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     human_human_run,
     shipped_baselines,
-    shipped_bounds,
+    shipped_references,
 )
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 
 
-class Bound(Protocol):
+class Reference(Protocol):
     """Plays a suite with a robot that knows more than any policy may."""
 
     def __call__(
@@ -28,10 +28,10 @@ class Bound(Protocol):
         """Return the run; arguments as for :func:`.run_suite`."""
 
 
-def episodes_to_play(policies: int, suite: Suite, *, bounds: int = 0) -> int:
+def episodes_to_play(policies: int, suite: Suite, *, references: int = 0) -> int:
     """Return the number of episodes that :func:`play_policies` will play."""
     human_human = shipped_baselines(suite) is None
-    return suite.size * (policies + human_human + bounds * (shipped_bounds(suite) is None))
+    return suite.size * (policies + human_human + references * (shipped_references(suite) is None))
 
 
 def play_policies(
@@ -39,12 +39,12 @@ def play_policies(
     suite: Suite,
     *,
     stored: Sequence[PolicyResults] = (),
-    bounds: Mapping[str, Bound] | None = None,
+    references: Mapping[str, Reference] | None = None,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
     channel: Channel | None = None,
 ) -> PairedResults:
-    """Play the suite with each policy, and with baseline and bounds where none are shipped.
+    """Play the suite with each policy, and with baseline and references where none are shipped.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def play_policies(
         As for :func:`.run_suite`.
     stored
         Results of policies that have played the suite before.
-    bounds
+    references
         Bounds to play, by name, if none are shipped for the suite; shipped ones are always
         included.
     channel
@@ -69,7 +69,7 @@ def play_policies(
     """
     play = partial(run_suite, executor=executor, progress=progress, channel=channel)
     played = [PolicyResults.of(name, play(spec, suite)) for name, spec in policies.items()]
-    bounding = known_bounds(bounds or {}, suite, executor=executor, progress=progress)
+    beside = known_references(references or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
         human_human = ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
@@ -79,34 +79,34 @@ def play_policies(
         suite=suite,
         policies=(*played, *stored),
         human_human=human_human,
-        bounds=bounding,
+        references=beside,
         channel=channel,
     )
 
 
-def known_bounds(
-    bounds: Mapping[str, Bound],
+def known_references(
+    references: Mapping[str, Reference],
     suite: Suite,
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, ScoreTable]:
-    """Return the shipped bounds of a suite or, if there are none, those that were played."""
-    shipped = shipped_bounds(suite)
+    """Return the shipped references of a suite or, if there are none, those that were played."""
+    shipped = shipped_references(suite)
     if shipped is not None:
         return shipped
-    return play_bounds(bounds, suite, executor=executor, progress=progress)
+    return play_references(references, suite, executor=executor, progress=progress)
 
 
-def play_bounds(
-    bounds: Mapping[str, Bound],
+def play_references(
+    references: Mapping[str, Reference],
     suite: Suite,
     *,
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[str, ScoreTable]:
-    """Return the results of each bound on a suite; arguments as for :func:`play_policies`."""
+    """Return the results of each reference on a suite; arguments as for :func:`play_policies`."""
     return {
         name: ScoreTable.of(play(suite, executor=executor, progress=progress))
-        for name, play in bounds.items()
+        for name, play in references.items()
     }

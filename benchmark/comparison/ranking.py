@@ -4,17 +4,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import (
     Estimate,
+    Family,
     PairedDifference,
+    all_pairs,
     decisive,
-    holm_correction,
-    permutation_ps_against,
-    rank_groups,
 )
 
 SubsetKind = Literal["all", "behaviour", "subject"]
@@ -26,19 +25,24 @@ class RankedPolicy:
 
     name: str
     rank: int
-    """Number of its rank group, 1 for the best; see :func:`.rank_groups`."""
+    """1 + the number of policies that are better beyond chance; see :attr:`.Family.ranks`."""
     scores: ScoreTable
     """Its scores on these lifts."""
     rmse_mm: Estimate
     vs_human: Estimate
-    """RMSE over that of the human-human baseline: below 1 is better than a human partner."""
-    better_than_human: float
-    """Probability that its mean RMSE on such lifts is below the human-human baseline's."""
+    """RMSE over that of the human-human baseline, geometric mean: below 1 is better than a human
+    partner."""
+    better_than_human: float | None
+    """Probability that ``vs_human`` is below 1 with other people; None with a single person."""
+    rougher: tuple[str, ...] | None
+    """Metrics by which it is rougher than two people; None if that is not known."""
     metrics: Mapping[str, Estimate | None]
     """The other metrics that boards show, over the lifts that have a value; None if none has."""
     to_best: PairedDifference | None
-    """RMSE minus that of the first in the order [mm], p Holm-corrected for the policies compared;
-    None for the first itself."""
+    """RMSE minus that of the first in the order [mm], p corrected for all pairs of policies; None
+    for the first itself."""
+    same_as_best: bool
+    """Whether it cannot be told from the first in the order."""
 
     @property
     def failed(self) -> int:
@@ -59,21 +63,25 @@ class Ranking:
     name: str
     """The behaviour or the subject; ``all`` for all episodes."""
     episodes: int
-    references_rmse_mm: Mapping[str, Estimate]
-    """RMSE of each of :attr:`.PairedResults.references`."""
+    unranked_rmse_mm: Mapping[str, Estimate]
+    """RMSE of each of :attr:`.PairedResults.unranked`."""
+    unranked_vs_human: Mapping[str, Estimate]
+    """Its ratio to the human-human baseline."""
     policies: tuple[RankedPolicy, ...]
-    """In the order of the mean RMSE, the best first."""
+    """In the order of the mean RMSE, the best first; ranks have the same order."""
+    people: int
+    """Number of people in these episodes."""
     decisive: bool
-    """Whether there are enough episodes to tell any policy from the best; otherwise ranks have no
+    """Whether there are enough people to tell any two policies apart; otherwise ranks have no
     meaning."""
 
     @property
     def human_human_rmse_mm(self) -> Estimate:
         """RMSE of the human-human baseline."""
-        return self.references_rmse_mm[HUMAN_HUMAN_LABEL]
+        return self.unranked_rmse_mm[HUMAN_HUMAN_LABEL]
 
     def best(self, ranked: RankedPolicy) -> bool:
-        """Return whether a policy shares the first rank, if there are enough episodes to tell."""
+        """Return whether no policy is better than this one, if there are enough people to tell."""
         return self.decisive and ranked.rank == 1
 
 
@@ -85,7 +93,7 @@ def rank_policies(
     Parameters
     ----------
     results
-        Results of the policies, baseline and bounds.
+        Results of the policies, baseline and references.
     kind, name
         Kind and name of the subset: a behaviour, a subject, or all.
     members
@@ -93,15 +101,16 @@ def rank_policies(
     """
     tables = {policy.name: policy.scores.select(members) for policy in results.policies}
     human_human = results.human_human.select(members)
-    groups = rank_groups({name: np.array(scores.rmse_mm) for name, scores in tables.items()})
-    order = [tables[name] for group in groups for name in group]
-    ranks = [(name, rank) for rank, group in enumerate(groups, 1) for name in group]
+    units = human_human.units
+    family = all_pairs({name: scores.rmse_mm for name, scores in tables.items()}, units)
+    unranked = {name: baseline.select(members) for name, baseline in results.unranked.items()}
     return Ranking(
         kind=kind,
         name=name,
         episodes=len(members),
-        references_rmse_mm={
-            name: baseline.select(members).error for name, baseline in results.references.items()
+        unranked_rmse_mm={name: baseline.error for name, baseline in unranked.items()},
+        unranked_vs_human={
+            name: baseline.against(human_human).ratio for name, baseline in unranked.items()
         },
         policies=tuple(
             RankedPolicy(
@@ -111,18 +120,24 @@ def rank_policies(
                 rmse_mm=scores.error,
                 vs_human=scores.against(human_human).ratio,
                 better_than_human=scores.against(human_human).probability,
+                rougher=rougher(scores, human_human, results.suite.metrics),
                 metrics={each.name: scores.estimate(each.name) for each in results.metrics},
-                to_best=difference,
+                to_best=_to_best(tables, family, name),
+                same_as_best=not family.apart(name, family.names[0]),
             )
-            for (name, rank), scores, difference in zip(ranks, order, _to_best(order), strict=True)
+            for name, rank in family.ranks.items()
+            for scores in (tables[name],)
         ),
-        decisive=decisive(len(tables), len(members)),
+        people=units.count,
+        decisive=decisive(units.count),
     )
 
 
-def _to_best(tables: Sequence[ScoreTable]) -> list[PairedDifference | None]:
-    """Return the difference of each policy to the first."""
-    best, *others = tables
-    ps = holm_correction(permutation_ps_against(best.rmse_mm, [each.rmse_mm for each in others]))
-    tested = (each.against(best).tested(float(p)) for each, p in zip(others, ps, strict=True))
-    return [None, *tested]
+def _to_best(
+    tables: Mapping[str, ScoreTable], family: Family, name: str
+) -> PairedDifference | None:
+    """Return the difference of a policy to the best."""
+    best = family.names[0]
+    if name == best:
+        return None
+    return tables[name].against(tables[best]).tested(family.p(name, best))

@@ -28,7 +28,7 @@ class Stored:
     channel: Channel | None
     """The channel between the robot and the policy; None if there was none."""
     vs_human: Estimate | None
-    """RMSE divided by that of the human-human baseline; None without this baseline."""
+    """Ratio to the human-human baseline; None without this baseline."""
 
 
 def read_stored(folder: Path) -> Stored:
@@ -79,10 +79,12 @@ def _vs_human(content: Mapping[str, Any]) -> Estimate | None:
     if pick(content, "summary.vs_human", (dict, type(None)), RESULTS) is None:
         return None
     mean = pick(content, "summary.vs_human.mean", float, RESULTS)
-    match pick(content, "summary.vs_human.ci95", list, RESULTS):
+    match pick(content, "summary.vs_human.ci95", (list, type(None)), RESULTS):
+        case None:
+            return Estimate(mean=mean, ci95=None)
         case [float(low), float(high)]:
             return Estimate(mean=mean, ci95=(low, high))
-    raise InputError(f"{RESULTS}: summary.vs_human.ci95 must be two numbers")
+    raise InputError(f"{RESULTS}: summary.vs_human.ci95 must be two numbers, or null")
 
 
 def check_same_lifts(stored: Sequence[Stored], suite: Suite, channel: Channel | None) -> None:

@@ -7,8 +7,9 @@ from colift.agents.humans import Subject
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import TASK, make_scenario, make_task
+from colift.benchmark.suites.ranges import TRAINING_PEOPLE
 
-TRAINING_SEEDS: Final = range(100_000, 200_000)
+TRAINING_SEEDS: Final = TRAINING_PEOPLE
 """Seeds of people and lifts to learn from: no suite, calibration or test uses them."""
 
 ANY: Final = "any"

@@ -7,12 +7,14 @@ world, bit for bit as in a new one (:class:`Shared`).
 import contextlib
 from collections.abc import Iterator
 from functools import partial
-from typing import Final, Protocol, Self, runtime_checkable
+from typing import Final, NamedTuple, Protocol, Self, runtime_checkable
 
+from colift.benchmark.episode.bodies import Bodies
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
 from colift.benchmark.world import BodyParameters, FarEnd, World
+from colift.benchmark.world.table import Table
 
 
 @runtime_checkable
@@ -23,17 +25,25 @@ class Shared(World, Protocol):
         """Exchange the person, and return the world, which must then be reset."""
 
 
-_kept: Final[list[tuple[Task, FarEnd, World]]] = []
-"""The world left by the last lift, with its task and the holder of its far end."""
+class Left(NamedTuple):
+    """A world that a lift has left."""
+
+    task: Task
+    bodies: Bodies
+    world: World
+
+
+_kept: Final[list[Left]] = []
+"""The world left by the last lift."""
 
 
 @contextlib.contextmanager
 def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
-    """Yield a lift, in the world of the last lift if task and holder of the far end are the same.
+    """Yield a lift, in the world of the last lift if only the person is another.
 
     Its world is left for the next one, unless an error ends the context.
     """
-    lift = Lift(scenario, world=partial(_taken, scenario.task))
+    lift = Lift(scenario, world=partial(_taken, _kept, scenario.task))
     try:
         yield lift
     except GeneratorExit:  # No more episodes are requested.
@@ -48,36 +58,32 @@ def lift_in_kept_world(scenario: Scenario) -> Iterator[Lift]:
 def drop_kept_world() -> None:
     """Release the world that is kept, if there is one: 30 MB."""
     while _kept:
-        _kept.pop()[-1].close()
+        _kept.pop().world.close()
 
 
 def next_lift(lift: Lift, scenario: Scenario) -> Lift:
     """Return a lift of a scenario after another one, in the other's world if it can be used."""
-    left = (lift.task, lift.seat.body, lift.world)
-
-    def world(human: BodyParameters, far_end: FarEnd) -> World:
-        return _exchanged(left, scenario.task, human, far_end)
-
-    return Lift(scenario, world=world)
+    return Lift(scenario, world=partial(_taken, _left(lift), scenario.task))
 
 
-def _exchanged(
-    left: tuple[Task, FarEnd, World], task: Task, human: BodyParameters, far_end: FarEnd
+def _taken(
+    shelf: list[Left], task: Task, human: BodyParameters, far_end: FarEnd, table: Table
 ) -> World:
-    """Return the world that is left with another person, or a new one if that cannot be."""
-    *setting, world = left
-    if isinstance(world, Shared) and setting == [task, far_end]:
-        return world.with_person(human)
-    world.close()
-    return task.world(human, far_end)
+    """Return the world on a shelf with another person, or a new one if that cannot be."""
+    if shelf:
+        left = shelf.pop()
+        same = (left.task, *left.bodies[1:]) == (task, far_end, table)
+        if same and isinstance(left.world, Shared):
+            return left.world.with_person(human)
+        left.world.close()
+    return task.world(human, far_end, table)
 
 
-def _taken(task: Task, human: BodyParameters, far_end: FarEnd) -> World:
-    if _kept:
-        return _exchanged(_kept.pop(), task, human, far_end)
-    return task.world(human, far_end)
+def _left(lift: Lift) -> list[Left]:
+    """Return the world of a lift; nothing if it has none."""
+    return [] if lift.bodies is None else [Left(lift.task, lift.bodies, lift.world)]
 
 
 def _keep(lift: Lift) -> None:
     drop_kept_world()
-    _kept.append((lift.task, lift.seat.body, lift.world))
+    _kept.extend(_left(lift))

@@ -10,11 +10,13 @@ from colift.agents.agent import FRAME, HISTORY, Action, Agent, HumanObservation,
 from colift.agents.humans import Embodied, Plan, Subject
 from colift.agents.humans.hand import HandMemory, NoiseStream, carry_out
 from colift.agents.rules import SCALARS, Drawn, NumberSeries
+from colift.benchmark.episode.bodies import Bodies, bodies_of
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import body_parameters, within_range
+from colift.benchmark.episode.seat import within_range
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.episode.sensing import drawn_errors, sight, touch
 from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, Intended, World
+from colift.benchmark.world.table import Table
 from numpy.typing import ArrayLike, NDArray
 
 READ: Final = (
@@ -27,8 +29,8 @@ READ: Final = (
 )
 """Read-outs of a world that rules may see; see :meth:`.View.seen`."""
 
-MakeWorld = Callable[[BodyParameters, FarEnd], World]
-"""Returns a world of a person and a holder of the far end."""
+MakeWorld = Callable[[BodyParameters, FarEnd, Table], World]
+"""Returns a world of a person, a holder of the far end, and a table."""
 
 
 class Lift:
@@ -56,29 +58,51 @@ class Lift:
         self.partner_size = seat.action_size(self.frames_per_step)
         self.step_limit = seat.action_range(scenario.control_period)[1]
         """Largest change of a robot's hand command in one step [m]."""
-        self.latency = scenario.latency_frames
         self.visual, self.haptic = _delays(scenario.subject)
         far = (0, 0) if seat.person is None else _delays(seat.person)
         self.partner_visual, self.partner_haptic = far
-        self._person = self.task.person
-        make = world or self.task.world
-        self.world: World = make(body_parameters(scenario.subject), seat.body)
+        self._person = scenario.rules
+        self._make = world or self.task.world
+        self.bodies: Bodies | None = None
+        """What the world is made of; None if there is none yet: with conditions, before a reset."""
+        if scenario.conditions is None:
+            self._enter(bodies_of(scenario, None))
 
     def reset(self, seed: int) -> None:
         """Begin the episode ``seed``: draw the human's plan and the sensors' noise."""
         scenario, task, size = self.scenario, self.task, self.frames_per_step
-        self.world.reset()
         self.seed = seed
         self.plan: Plan = scenario.human.plan(scenario.subject, self.role_seed("plan"))
         steps = -(-len(self.plan.target) // size)
         self.horizon = steps * size
+        conditions, role = scenario.conditions, self.role_seed
+        self.conditions = None if conditions is None else conditions.draw(role, steps, size)
+        """The drawn conditions; None if the scenario has none."""
+        drawn = self.conditions
+        ages = scenario.latency_frames if drawn is None else drawn.ages
+        self._ages: list[int] = np.broadcast_to(ages, steps + 1).tolist()
         self._errors: list[list[float]] = drawn_errors(
-            task.senses, task.touch, self.role_seed, steps, size, self.latency
+            task.senses, task.touch, role, steps, size, ages, 1.0 if drawn is None else drawn.noise
         ).tolist()
+        if drawn is not None:
+            self._enter(bodies_of(scenario, drawn))
+        self.world.reset()
         self.frame = 0
         self.command = 0.0
         self.dropped: str | None = None
         self.begin(lasting(self.plan.target, self.horizon))
+
+    def _enter(self, bodies: Bodies) -> None:
+        """Take a world of some bodies: the present one if it has the same."""
+        if bodies != self.bodies:
+            self.close()
+            self.bodies, self.table = bodies, bodies.table
+            self.world: World = self._make(*bodies)
+
+    @property
+    def latency(self) -> int:
+        """Age of the motion capture's sample now, in frames."""
+        return self._ages[self.frame // self.frames_per_step]
 
     def begin(self, target: NDArray[np.float64]) -> None:
         """Let the person begin to carry out intended heights [m], one per frame."""
@@ -281,8 +305,9 @@ class Lift:
         return view
 
     def close(self) -> None:
-        """Release the world."""
-        self.world.close()
+        """Release the world, if there is one."""
+        if self.bodies is not None:
+            self.world.close()
 
 
 def lasting(values: NDArray[np.float64], frames: int) -> NDArray[np.float64]:

@@ -70,12 +70,29 @@ class Metric:
     """Places with a column: boards, comparisons and a run's table (``board``); a run's table
     (``run``); or only files (``file``). All metrics are in ``results.json`` and
     ``episodes.csv``."""
+    gentle: bool = False
+    """Whether it shows how gentle an agent is: a policy that is worse by it than two people, beyond
+    chance, is marked as rougher; see :func:`.rougher`. Only for ``less`` and ``more``."""
     limit: float | None = None
     """Value above which the episode has missed its goal, if the metric decides that."""
     meaning: str
     """The definition in one sentence."""
     words: MetricWords = MetricWords()
     """Its names in sentences and pictures."""
+
+    def __post_init__(self) -> None:
+        """Check that it can be compared.
+
+        Raises
+        ------
+        InputError
+            If it shows how gentle an agent is, and its better values have no direction.
+        """
+        if self.gentle and self.better == "near zero":
+            raise InputError(
+                f"metric {self.name!r} is gentle, so that better must be 'less' or 'more', "
+                f"not {self.better!r}"
+            )
 
     @property
     def heading(self) -> str:
@@ -157,6 +174,11 @@ def on_boards(metrics: Metrics) -> tuple[Metric, ...]:
     return tuple(
         each for each in metrics.values() if each.shown == "board" and each.name != LEADING
     )
+
+
+def gentle(metrics: Metrics) -> tuple[Metric, ...]:
+    """Return the metrics that show how gentle an agent is."""
+    return tuple(each for each in metrics.values() if each.gentle)
 
 
 def second_axis(metrics: Metrics) -> Metric:

@@ -27,6 +27,10 @@ MIN_SHARE: Final = 0.25
 STROKE_TAIL: Final = 0.3
 """Time [s] after a stroke of the human in which the robot may still be completing it."""
 
+REST_TAIL: Final = 0.5
+"""Time [s] after a stroke of the human after which the robot is at rest, too: twice the delay of
+one that copies."""
+
 MIN_LAG: Final = -0.3
 """Least delay of the robot in the search [s]; negative when the robot leads."""
 
@@ -66,6 +70,30 @@ def rmse_mm(human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None =
     error, missing = _error_mm(human_end, robot_end, horizon)
     squares = float(dot(error, error)) + missing * FAILED_FRAME_MM**2
     return math.sqrt(squares / (error.size + missing))
+
+
+def rmse_about_mean_mm(
+    human_end: ArrayLike, robot_end: ArrayLike, *, horizon: int | None = None
+) -> float:
+    r"""Return the root mean square of the height difference about its mean over the trial.
+
+    .. math:: \sqrt{\tfrac{1}{H} \sum_t (d_t - \bar d)^2}, \quad d_t = Z_{1t} - Z_{2t}
+
+    What remains of :func:`rmse_mm` without a constant tilt: the squared RMSE is the square of this
+    plus that of the mean difference. Real pairs keep such a tilt for whole lifts.
+
+    Parameters and errors are those of :func:`rmse_mm`; a missing frame counts with
+    ``FAILED_FRAME_MM`` and is not part of the mean.
+
+    Returns
+    -------
+    float
+        Error [mm].
+    """
+    error, missing = _error_mm(human_end, robot_end, horizon)
+    about = error - dot(error, np.ones_like(error)) / max(1, error.size)
+    squares = float(dot(about, about)) + missing * FAILED_FRAME_MM**2
+    return math.sqrt(squares / (about.size + missing))
 
 
 def abs_error_mm(
@@ -189,6 +217,39 @@ def stroke_smoothness(
             return math.nan
         scores.append(metric(speed[window]))
     return math.fsum(scores) / len(scores)
+
+
+def rest_speed_mm_s(height: ArrayLike, strokes: Sequence[Stroke]) -> float:
+    """Return the root mean square speed of one table end while the human rests.
+
+    It is the trembling of who holds this end. The human rests outside the strokes and
+    ``REST_TAIL`` (0.5 s) after each.
+
+    Parameters
+    ----------
+    height
+        Height of the end [m] at 100 Hz, shape (T,), up to the failure if there was one.
+    strokes
+        Frames (start, stop) of the human's movements, ``stop`` exclusive.
+
+    Returns
+    -------
+    float
+        Speed [mm/s]; NaN if there is no such frame.
+
+    Raises
+    ------
+    InputError
+        If the heights are not a finite vector with at least two frames.
+    """
+    z = _trace("height", height)
+    if z.size < 2:
+        raise InputError(f"height has {z.size} frame; a speed needs at least two")
+    rests = np.ones(z.size, dtype=bool)
+    for start, stop in strokes:
+        rests[start : stop + round(REST_TAIL / FRAME)] = False
+    speed = np.gradient(z, FRAME)[rests]
+    return 1000.0 * math.sqrt(float(dot(speed, speed)) / speed.size) if speed.size else math.nan
 
 
 def human_force_n(force: ArrayLike) -> float:

@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.agents.agent import FRAME
-from colift.agents.humans import Behaviour, Subject
+from colift.agents.humans import Behaviour, Recorded, Subject
+from colift.agents.humans.person import Attentive, Person
 from colift.base.errors import InputError
+from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.episode.seat import Seat, make_seat
 from colift.benchmark.episode.task import Task
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
@@ -14,8 +16,8 @@ CONTROL_PERIOD: Final = 0.1
 """Default control period [s]: the time of one arm movement in the paper (section II.A)."""
 
 LATENCY: Final = 0.1
-"""Default age of the motion-capture sample when the robot decides [s]: in the paper the robot gets
-a sample only when its last action is complete (section II.A)."""
+"""Default age of the motion-capture sample when the robot decides [s]. A choice: the paper states
+only that a sample is taken when the last action is complete (section II.A), which reads as 0."""
 
 LONGEST_LATENCY: Final = 0.49
 LONGEST_PERIOD: Final = 0.5
@@ -44,15 +46,27 @@ class Scenario:
     control_period: float = CONTROL_PERIOD
     """Time between two of the robot's decisions [s]."""
     latency: float = LATENCY
-    """Age of the motion-capture sample when the robot decides [s]."""
+    """Age of the motion-capture sample when the robot decides [s]; unused with conditions."""
+    conditions: Conditions | None = None
+    """Ranges of what is drawn for each lift; None is the benchmark's sensor, table and arms."""
     task: Task
     """The agents' common purpose."""
 
     def __post_init__(self) -> None:
-        """Check the times."""
+        """Check the times, and that the task allows conditions."""
         make_seat(self.partner)  # Refuses an unknown name.
         _check_time("control_period", self.control_period, FRAME, LONGEST_PERIOD)
         _check_time("latency", self.latency, 0.0, LONGEST_LATENCY)
+        if self.conditions is not None and self.task.touch:
+            raise InputError(
+                f"conditions are for tasks without touch; the task {self.task.name!r} has it"
+            )
+
+    @property
+    def rules(self) -> Person:
+        """The rules of the person at the near end."""
+        human = self.human
+        return human.rules if isinstance(human, Attentive) else self.task.person
 
     @property
     def seat(self) -> Seat:
@@ -68,6 +82,16 @@ class Scenario:
     def latency_frames(self) -> int:
         """The latency in motion-capture frames."""
         return round(self.latency / FRAME)
+
+    @property
+    def person(self) -> str:
+        """The person of whom this is one lift: all lifts of a person are one unit in statistics.
+
+        A drawn plan's is the subject. The body of a recorded lift is not that of its person: the
+        person is the one that its file names, or if there is none, the recording stands alone.
+        """
+        recorded = self.human.recording.person if isinstance(self.human, Recorded) else ""
+        return recorded or self.trial or self.subject.name
 
     @property
     def name(self) -> str:

@@ -41,7 +41,8 @@ def drawn_errors(
     seed: Callable[[str], int],
     steps: int,
     size: int,
-    latency: int,
+    ages: int | NDArray[np.int64],
+    precision: float = 1.0,
 ) -> NDArray[np.float64]:
     """Return the errors of a robot's senses at the beginning of each step, and at the end.
 
@@ -55,21 +56,25 @@ def drawn_errors(
         Returns the lift's seed of a role.
     steps, size
         Steps of the lift, and frames in each.
-    latency
-        Age of the motion capture's sample in frames.
+    ages
+        Age of the motion capture's sample in frames: always the same, or (steps + 1,). The error is
+        that of the sample: seen again, it has the same one.
+    precision
+        Factor of the motion capture's error.
 
     Returns
     -------
     (steps + 1, k)
     """
     frames = HISTORY_FRAMES + steps * size
-    sampled = size * np.arange(steps + 1) + HISTORY_FRAMES - 1 - latency
+    sampled = size * np.arange(steps + 1) + HISTORY_FRAMES - 1 - ages
 
     def drawn(role: str) -> np.random.Generator:
         return np.random.default_rng(seed(f"{role}sensor"))
 
     errors = np.zeros((len(SIGHT) + (len(TOUCH) if with_touch else 0) + len(senses), steps + 1))
-    errors[:2] = drawn("").normal(0.0, MOCAP_NOISE, (2, frames))[:, sampled]
+    seen = drawn("").normal(0.0, precision * MOCAP_NOISE, (2, frames))
+    errors[:2] = seen[:, sampled]
     own = len(SIGHT)
     if with_touch:
         own += len(TOUCH)

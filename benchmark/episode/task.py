@@ -12,6 +12,7 @@ from colift.agents.senses import Sense
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.world import BodyParameters, FarEnd, Physics, World
+from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
 Bounds = tuple[NDArray[np.float64], NDArray[np.float64]]
@@ -25,6 +26,8 @@ class Playing(Protocol):
     """The physical world, with its read-outs."""
     frames_per_step: int
     """Motion-capture frames per control period."""
+    table: Table
+    """The table."""
     plan: Plan
     """The human's private plan."""
     target: NDArray[np.float64]
@@ -39,17 +42,32 @@ class Playing(Protocol):
     """The robot's hand command [m]."""
     visual: int
     """The human's visual delay in frames."""
+    haptic: int
+    """The human's haptic delay in frames."""
     partner_visual: int
     """That of a second human."""
     due: Any
     """The task's series, arrays (horizon,)."""
     facts: Any
     """The task's numbers."""
+    drawn: Drawn[float]
+    """Plan, series and numbers, as rules read them."""
     intention: Any
     """The person's intention in the coming step; see :meth:`.Person.intend`."""
 
+    @property
+    def latency(self) -> int:
+        """Age of the motion capture's sample in frames."""
+
+    @property
+    def hand(self) -> float:
+        """Height of the hands at the far end by their encoders [m]."""
+
     def role_seed(self, role: str) -> int:
         """Return the episode's seed of a role such as ``"sensor"``."""
+
+    def seen(self, name: str, age: int) -> float:
+        """Return a past read-out; see :meth:`.View.seen`."""
 
     def robot_view(self) -> Observation:
         """Return the robot's senses: sight, touch, and the task's own."""
@@ -126,9 +144,14 @@ class Task(Protocol):
         """Return the robot's own senses in this task without their errors."""
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> World:
-        """Return a world of a person and a holder of the far end; by default with its physics."""
+        """Return a world of a person, a holder of the far end, and a table; with its physics."""
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's observation at the beginning of a step."""

@@ -8,6 +8,7 @@ from typing import Final
 from colift.base.errors import InputError
 from colift.benchmark.export.card import CARD, card
 from colift.benchmark.export.contents import Contents
+from colift.benchmark.export.croissant import CROISSANT, croissant
 from colift.benchmark.export.folder import new_folder
 from colift.benchmark.export.lerobot_writer import frame_rate, write_lerobot
 from colift.benchmark.export.library import import_minari, import_pyarrow
@@ -57,7 +58,7 @@ def export(
     form: str,
     replace: bool = False,
 ) -> Contents:
-    """Write a data set with its card: all of it, or nothing.
+    """Write a data set with its card and its Croissant metadata: all of it, or nothing.
 
     Parameters
     ----------
@@ -109,4 +110,13 @@ def export(
         )
         (made / CARD).write_text(text)
         (made / STAMP).write_text(provenance.text())
+        described = croissant(
+            made,
+            provenance,
+            about=words.about,
+            people=words.people,
+            shows=words.shows,
+            licence=words.licence,
+        )
+        (made / CROISSANT).write_text(described, encoding="utf-8")
     return contents

@@ -19,9 +19,10 @@ from colift.benchmark.export.lifts import ExportedLift
 from colift.benchmark.export.observing import ObservedLift
 from colift.benchmark.export.rules import NAMES, agent, rule
 from colift.benchmark.suites.catalogue import RECORDED, make_scenario, make_subject
+from colift.benchmark.suites.ranges import TRAINING_PEOPLE
 from colift.benchmark.tasks.level.task import BEHAVIOURS, LEVEL
 
-FIRST_SEED: Final = 120_000
+FIRST_SEED: Final = TRAINING_PEOPLE[20_000]
 """Seed of the first lift and of its person: one of the training seeds, which no suite contains.
 The training of ``learned`` used some of them, too."""
 

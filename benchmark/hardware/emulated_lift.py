@@ -9,6 +9,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.hardware.joint_arms import JointArms, JointWorld
 from colift.benchmark.world import SERVO, BodyParameters, FarEnd, Servo
+from colift.benchmark.world.table import Table
 
 
 class EmulatedLift(Lift):
@@ -26,7 +27,7 @@ class EmulatedLift(Lift):
     """
 
     def __init__(self, scenario: Scenario, *, servo: Servo = SERVO) -> None:
-        def world(human: BodyParameters, far_end: FarEnd) -> JointWorld:
+        def world(human: BodyParameters, far_end: FarEnd, table: Table) -> JointWorld:
             self._world = JointWorld(human, servo)
             return self._world
 

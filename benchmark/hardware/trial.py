@@ -9,7 +9,7 @@ import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Final, cast
+from typing import Any, Final, NamedTuple, cast
 
 import numpy as np
 from colift.agents.agent import FRAME
@@ -28,7 +28,7 @@ from colift.benchmark.execution.runner import Run
 from colift.benchmark.hardware.strokes import find_strokes, smoothed
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import LEVEL
-from colift.benchmark.world.table import TABLE_LENGTH
+from colift.benchmark.world.table import TABLE, TABLE_LENGTH, Table
 from numpy.typing import NDArray
 
 HARDWARE: Final = "hardware"
@@ -168,6 +168,13 @@ def _resampled(log: TrialLog, frames: int) -> tuple[NDArray[np.float64], NDArray
     return np.interp(wanted, times, human), np.interp(wanted, times, robot)
 
 
+class _Unknown(NamedTuple):
+    """The intention of a person, of which nothing is known."""
+
+
+NO_INTENTION: Final = _Unknown()
+
+
 @dataclass(frozen=True, kw_only=True)
 class _Unplanned:
     """What a score may ask of a lift, for a trial: nothing of it is known, except its length."""
@@ -175,6 +182,8 @@ class _Unplanned:
     plan: Plan
     horizon: int
     share: float
+    table: Table = TABLE
+    intention: _Unknown = NO_INTENTION
 
     def clipped(self, actions: NDArray[np.float64]) -> float:
         return self.share

@@ -168,7 +168,7 @@ def _correct(fit: Fit) -> Calibration:
     return Calibration(
         amplitude=amplitude,
         process_noise=float(f"{old.process_noise * factor:.3g}"),
-        partner_lag=round(lag, 4),
+        partner_lag=round(lag, 5),
         provenance=old.provenance,
     )
 

@@ -60,6 +60,16 @@ class TimingSetting:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class FreshRuns:
+    """Runs at latency 0, the literal reading of the paper."""
+
+    reactive: Run
+    """Without prediction."""
+    blend: Run
+    """With prediction."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class TorqueRuns:
     """Runs with :data:`TORQUE_ROBOT`."""
 
@@ -77,6 +87,8 @@ class Evidence:
     """Table I without prediction."""
     blend: Run
     """Table I with prediction."""
+    fresh: FreshRuns
+    """Table I with samples that are taken when the robot decides."""
     lifts: list[SampledLift]
     """The lifts of ``blend``."""
     human_human: Run
@@ -88,7 +100,7 @@ class Evidence:
     jerky_reactive: Run
     jerky_blend: Run
     """Lifts in irregular submovements."""
-    torque: "TorqueRuns"
+    torque: TorqueRuns
     """Some of Table I's lifts with a torque-controlled arm instead of the NAO."""
     forgetting: Mapping[float, Run]
     """Some of Table I's lifts with prediction, by forgetting factor."""
@@ -136,9 +148,11 @@ def collect_evidence(
             ("reactive", "blend"), effort.periods, effort.latencies
         )
     ]
+    fresh = suite.with_timing(0.0, None)
     return Evidence(
         reactive=run(REACTIVE, suite),
         blend=blend,
+        fresh=FreshRuns(reactive=run(REACTIVE, fresh), blend=run(BLEND, fresh)),
         lifts=sampled_lifts(blend),
         human_human=human_human_run(suite, executor=executor, progress=progress),
         pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
@@ -166,7 +180,7 @@ def lift_count(suite: Suite, effort: Effort | None = None) -> int:
     subjects, seeds = len(suite.scenarios), len(suite.seeds)
     settings = 2 * len(effort.periods) * len(effort.latencies)
     repeated = (
-        (3, seeds),
+        (5, seeds),
         (1, effort.pause),
         (1, effort.rest),
         (2, effort.jerky),

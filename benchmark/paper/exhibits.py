@@ -29,6 +29,8 @@ class Claim:
     values: Mapping[str, float | None] = field(default_factory=dict)
     """The numbers of ``measured``, units in the names."""
     holds: bool
+    fitted: bool = False
+    """Whether numbers of the set-up were fitted to it, so that it is no independent finding."""
     note: str = ""
     """Reasons in the data, or limits of the answer; never empty if the claim does not hold."""
 

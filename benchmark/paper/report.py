@@ -44,6 +44,8 @@ class Report:
     """Everything that the pages show."""
 
     table: TableOne
+    fresh: TableOne
+    """Table I at latency 0."""
     exhibits: list[Exhibit]
     claims: list[Claim]
     provenance: str
@@ -56,6 +58,7 @@ def make_report(evidence: Evidence) -> Report:
     suite = evidence.blend.suite
     return Report(
         table=table,
+        fresh=table_one(evidence.fresh.reactive, evidence.fresh.blend, evidence.human_human),
         exhibits=all_exhibits(evidence, table),
         claims=all_claims(evidence, table),
         provenance=f"colift {version('colift')}, suite {suite.name}, digest {suite.digest}, "
@@ -76,7 +79,14 @@ def write_report(report: Report, folder: Path) -> None:
         (folder / f"{exhibit.name}.png").write_bytes(drawn[exhibit.name])
         _write_csv(folder / f"{exhibit.name}.csv", exhibit)
     pages = (
-        *report_pages(report.table, report.exhibits, drawn, report.claims, report.provenance),
+        *report_pages(
+            report.table,
+            report.fresh,
+            report.exhibits,
+            drawn,
+            report.claims,
+            report.provenance,
+        ),
         json.dumps(claims_json(report), indent=2, allow_nan=False, ensure_ascii=False) + "\n",
     )
     for name, content in zip(PAGES, pages, strict=True):

@@ -10,10 +10,11 @@ from colift.benchmark.execution.runner import Run
 from colift.benchmark.statistics import (
     Estimate,
     Interval,
+    Units,
+    mean_of,
     paired_difference,
     paired_permutation_p,
     ratio_of_means,
-    stratified_bootstrap,
 )
 from numpy.typing import NDArray
 
@@ -50,7 +51,8 @@ class Reproduction:
     paper: float
     mean: float
     ci95: Interval
-    """95 % confidence interval of ``mean`` over other seeds."""
+    """95 % confidence interval of ``mean``, for other lifts of these subjects: they stand for the
+    paper's five, and are no sample of people."""
 
     @property
     def ratio(self) -> float:
@@ -95,17 +97,17 @@ def table_one(reactive: Run, blend: Run, human_human: Run) -> TableOne:
     without, with_it = errors(reactive.episodes), errors(blend.episodes)
     paper_without = _mean(WITHOUT_PREDICTION, subjects)
     paper_with = _mean(WITH_PREDICTION, subjects)
-    ratio = ratio_of_means(with_it, without, strata)
+    ratio = ratio_of_means(with_it, without, Units.episodes(strata))
 
     def row(name: str, papers: tuple[float, float], members: Sequence[str]) -> SubjectRow:
         mask = np.isin(strata, members)
-        cells = [subject for subject in strata if subject in members]
+        lifts = Units.episodes(subject for subject in strata if subject in members)
         return SubjectRow(
             subject=name,
-            reactive=_cell(papers[0], without[mask], cells),
-            blend=_cell(papers[1], with_it[mask], cells),
-            difference=paired_difference(with_it[mask], without[mask], cells),
-            p=paired_permutation_p(with_it[mask], without[mask]),
+            reactive=_cell(papers[0], without[mask], lifts),
+            blend=_cell(papers[1], with_it[mask], lifts),
+            difference=paired_difference(with_it[mask], without[mask], lifts),
+            p=paired_permutation_p(with_it[mask], without[mask], lifts),
         )
 
     return TableOne(
@@ -114,8 +116,8 @@ def table_one(reactive: Run, blend: Run, human_human: Run) -> TableOne:
             for subject in subjects
         ),
         mean=row("mean", (paper_without, paper_with), subjects),
-        ratio=Reproduction(paper=paper_with / paper_without, mean=ratio.mean, ci95=ratio.ci95),
-        human_human=_cell(HUMAN_HUMAN_RMSE, errors(human_human.episodes), strata),
+        ratio=Reproduction(paper=paper_with / paper_without, mean=ratio.mean, ci95=ratio.ends),
+        human_human=_cell(HUMAN_HUMAN_RMSE, errors(human_human.episodes), Units.episodes(strata)),
         lifts=len(blend.suite.seeds),
     )
 
@@ -125,10 +127,18 @@ def errors(episodes: Sequence[Episode]) -> NDArray[np.float64]:
     return np.array([episode.scores["rmse_mm"] for episode in episodes])
 
 
+def single_lifts(values: NDArray[np.float64]) -> Units:
+    """Return the lifts of a claim as units of their own.
+
+    The subjects stand for the paper's five: a claim holds for other lifts of these, not of others.
+    """
+    return Units.episodes(["all"] * len(values))
+
+
 def _mean(column: dict[str, float], subjects: Sequence[str]) -> float:
     return float(np.mean([column[subject] for subject in subjects]))
 
 
-def _cell(paper: float, values: NDArray[np.float64], strata: Sequence[str]) -> Reproduction:
-    ci95 = stratified_bootstrap(values, strata)
-    return Reproduction(paper=paper, mean=float(values.mean()), ci95=ci95)
+def _cell(paper: float, values: NDArray[np.float64], lifts: Units) -> Reproduction:
+    found = mean_of(values, lifts)
+    return Reproduction(paper=paper, mean=found.mean, ci95=found.ends)

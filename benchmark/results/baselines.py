@@ -1,7 +1,8 @@
 """The baselines of every result: the human-human baseline, and the policies hold and copy.
 
-For the public suites the baselines are shipped, together with the bounds (:mod:`.bounds`), which
-take minutes to play; for any other set of episodes the baselines are played.
+For the public suites the baselines are shipped, together with the references
+(:mod:`.references`), which take minutes to play; for any other set of episodes the baselines are
+played.
 """
 
 import functools
@@ -26,6 +27,15 @@ HUMAN_HUMAN: Final = "human_human"
 
 HUMAN_HUMAN_LABEL: Final = "human-human baseline"
 """Its name in tables and pictures."""
+
+BEST_KNOWN: Final = "best_known"
+"""Key of the trained reference."""
+
+
+def reference_label(name: str) -> str:
+    """Return the name of a reference in tables and pictures."""
+    return "best known (trained)" if name == BEST_KNOWN else name.replace("_", " ")
+
 
 SECOND_PERSON_SPEC: Final = InMemorySpec(
     name=HUMAN_HUMAN, factory=SecondPerson, source=SecondPerson
@@ -97,7 +107,7 @@ def play_baselines(
     for name, spec in baseline_specs(suite).items():
         played = suite.with_partner("human") if name == HUMAN_HUMAN else suite
         lifts = finished(spec, played, executor=executor, progress=progress)
-        found[name] = ScoreTable.of_lifts(suite.metrics, lifts).stored()
+        found[name] = ScoreTable.of_lifts(suite, lifts).stored()
     while len(_played) >= _MOST_PLAYED:
         del _played[next(iter(_played))]
     _played[suite.digest] = dict(found)
@@ -109,9 +119,9 @@ def shipped_baselines(suite: Suite) -> dict[str, ScoreTable] | None:
     return _shipped(suite, "baselines")
 
 
-def shipped_bounds(suite: Suite) -> dict[str, ScoreTable] | None:
-    """Return the shipped bounds of a suite, or None if there are none for its digest."""
-    return _shipped(suite, "bounds")
+def shipped_references(suite: Suite) -> dict[str, ScoreTable] | None:
+    """Return the shipped references of a suite, or None if there are none for its digest."""
+    return _shipped(suite, "references")
 
 
 @functools.cache
@@ -135,18 +145,18 @@ class ToShip:
 
     suite: Suite
     baselines: Mapping[str, ScoreTable]
-    bounds: Mapping[str, ScoreTable]
+    references: Mapping[str, ScoreTable]
 
 
 def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = None) -> str:
-    """Return the content of the shipped file: baselines and bounds by suite digest.
+    """Return the content of the shipped file: baselines and references by suite digest.
 
     Suites are in the order of their names.
 
     Parameters
     ----------
     played
-        The suites, with the baselines and bounds that have been played.
+        The suites, with the baselines and references that have been played.
     kept
         Content of a file whose entries are kept, except those of the suites that have been played.
     """
@@ -156,7 +166,7 @@ def baselines_json(played: Sequence[ToShip], kept: Mapping[str, Any] | None = No
         each.suite.digest: {
             "suite": each.suite.name,
             "baselines": {name: value.plain() for name, value in each.baselines.items()},
-            "bounds": {name: value.plain() for name, value in each.bounds.items()},
+            "references": {name: value.plain() for name, value in each.references.items()},
         }
         for each in played
     }

@@ -20,7 +20,6 @@ def versus_human(summary: Summary) -> str:
     return "" if ratio is None else f"vs_human {ratio.mean:.2f}{_interval(ratio.ci95)}"
 
 
-def _interval(ci95: Interval) -> str:
-    """Return the interval in words; empty if it has no width."""
-    low, high = ci95
-    return f" (95 % interval {low:.2f} to {high:.2f})" if high > low else ""
+def _interval(ci95: Interval | None) -> str:
+    """Return the interval in words; empty if there is none."""
+    return "" if ci95 is None else f" (95 % interval {ci95[0]:.2f} to {ci95[1]:.2f})"

@@ -10,18 +10,22 @@ from typing import Any, NamedTuple, Self
 import msgspec
 import numpy as np
 from colift.benchmark.episode.loop import Episode
-from colift.benchmark.episode.metric import LEADING, Metrics, on_boards
+from colift.benchmark.episode.metric import LEADING, gentle, on_boards
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.statistics import (
     Estimate,
+    FloatArray,
     MeanWithMissing,
     PairedDifference,
+    Units,
+    geometric_ratio,
+    log_ratios,
     mean_of,
     mean_with_missing,
     paired_difference,
     probability_better,
-    ratio_of_means,
 )
+from colift.benchmark.suites.suite import Suite
 
 Stratum = tuple[str, str]
 """Behaviour and subject."""
@@ -41,42 +45,58 @@ class ScoreTable:
 
     strata: tuple[Stratum, ...]
     """Behaviour and subject of each lift, in the suite's order."""
+    people: tuple[str, ...] = ()
+    """The person of each lift, where it is not the subject: see :attr:`.Scenario.person`."""
     values: Mapping[str, Sequence[float]] = field(hash=False)
     """Value of each metric in each lift, NaN where there is none. A stored table has the leading
-    metric alone."""
+    metric, and those of :attr:`gentle`."""
     means: Mapping[str, float | None] = field(default_factory=dict, hash=False)
     """Means of the other metrics that boards show; None where no lift has a value. A part of a
     table has none."""
     failures: tuple[str | None, ...] = ()
     """Reason of each failure; None for a lift that did not fail. A stored table has none."""
+    gentle: tuple[str, ...] = ()
+    """Metrics that show how gentle the agent is, by which others are compared with it; a table that
+    was stored before there were such metrics has none."""
 
     @classmethod
     def of(cls, run: Run) -> Self:
         """Return the scores of a run."""
-        return cls.of_lifts(run.suite.metrics, enumerate(run.episodes))
+        return cls.of_lifts(run.suite, enumerate(run.episodes))
 
     @classmethod
-    def of_lifts(cls, metrics: Metrics, lifts: Iterable[tuple[int, Episode]]) -> Self:
+    def of_lifts(cls, suite: Suite, lifts: Iterable[tuple[int, Episode]]) -> Self:
         """Return the scores of episodes that come with their places, in any order; none is kept."""
+        metrics, people = suite.metrics, _people(suite)
         known: dict[Stratum, Stratum] = {}
-        rows: dict[int, tuple[Stratum, str | None, array[float]]] = {}
+        rows: dict[int, tuple[Stratum, str, str | None, array[float]]] = {}
         for place, each in lifts:
             where = stratum(each)
+            who = people.get((*where, each.trial), each.subject)
             scores = array("d", (each.scores[name] for name in metrics))
-            rows[place] = known.setdefault(where, where), each.failure, scores
+            rows[place] = known.setdefault(where, where), who, each.failure, scores
         in_order = [rows[place] for place in sorted(rows)]
         values = {
-            name: array("d", (scores[i] for _, _, scores in in_order))
+            name: array("d", (scores[i] for _, _, _, scores in in_order))
             for i, name in enumerate(metrics)
         }
+        named = all(who == subject for (_, subject), who, _, _ in in_order)
         return cls(
-            strata=tuple(where for where, _, _ in in_order),
+            strata=tuple(where for where, _, _, _ in in_order),
+            people=() if named else tuple(who for _, who, _, _ in in_order),
             values=values,
             means={
                 each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
             },
-            failures=tuple(failure for _, failure, _ in in_order),
+            failures=tuple(failure for _, _, failure, _ in in_order),
+            gentle=tuple(each.name for each in gentle(metrics)),
         )
+
+    @functools.cached_property
+    def units(self) -> Units:
+        """The people, each with all of their lifts."""
+        behaviours, subjects = zip(*self.strata, strict=True)
+        return Units.people(zip(behaviours, self.people or subjects, strict=True))
 
     @property
     def rmse_mm(self) -> Sequence[float]:
@@ -100,20 +120,22 @@ class ScoreTable:
     @functools.cached_property
     def error(self) -> Estimate:
         """Mean RMSE with its interval [mm]."""
-        return mean_of(self.rmse_mm, self.strata)
+        return mean_of(self.rmse_mm, self.units)
 
     def estimate(self, name: str) -> Estimate | None:
         """Return the mean of a metric with its interval; None if no lift has a value."""
-        lifts = zip(self.values[name], self.strata, strict=True)
-        known = [(value, where) for value, where in lifts if not math.isnan(value)]
-        return mean_of(*zip(*known, strict=True)) if known else None
+        values = np.asarray(self.values[name], dtype=np.float64)
+        known = np.flatnonzero(~np.isnan(values))
+        return mean_of(values[known], self.units.select(known)) if known.size else None
 
     def select(self, members: Sequence[int]) -> Self:
         """Return the lifts with these indices."""
         return type(self)(
             strata=tuple(self.strata[i] for i in members),
+            people=tuple(self.people[i] for i in members if self.people),
             values={name: array("d", (of[i] for i in members)) for name, of in self.values.items()},
             failures=tuple(self.failures[i] for i in members if self.failures),
+            gentle=self.gentle,
         )
 
     def part(self, behaviour: str | None = None, subject: str | None = None) -> Self:
@@ -136,22 +158,40 @@ class ScoreTable:
 
     def against(self, other: "ScoreTable", name: str = LEADING) -> "Paired":
         """Return a metric of this agent and another, in the lifts in which both have a value."""
-        lifts = zip(self.values[name], other.values[name], self.strata, strict=True)
-        some = [lift for lift in lifts if not math.isnan(lift[0] + lift[1])]
-        return Paired(*map(tuple, zip(*some, strict=True))) if some else Paired((), (), ())
+        one, two = (np.asarray(each.values[name], dtype=np.float64) for each in (self, other))
+        if one.shape != two.shape:
+            raise ValueError(f"{one.size} lifts against {two.size}: they must be the same lifts")
+        known = np.flatnonzero(~np.isnan(one + two))
+        return Paired(one[known], two[known], self.units.select(known))
 
     def stored(self) -> Self:
         """Return what is left of the table when it is stored and read again."""
-        values = {LEADING: self.rmse_mm}
-        return type(self)(strata=self.strata, values=values, means=self.means)
+        values = {name: self.values[name] for name in (LEADING, *self._compared)}
+        return type(self)(
+            strata=self.strata,
+            people=self.people,
+            values=values,
+            means=self.means,
+            gentle=self.gentle,
+        )
 
     def plain(self) -> dict[str, Any]:
         """Return what a stored table has, ready for JSON."""
         return {
             "strata": [list(key) for key in self.strata],
+            **({"people": list(self.people)} if self.people else {}),
             "rmse_mm": list(self.rmse_mm),
             "means": dict(self.means),
+            "gentle": {
+                name: [None if math.isnan(value) else value for value in self.values[name]]
+                for name in self._compared
+            },
         }
+
+    @property
+    def _compared(self) -> tuple[str, ...]:
+        """The metrics of :attr:`gentle` that the table has."""
+        return tuple(name for name in self.gentle if name in self.values)
 
     @classmethod
     def read(cls, content: object) -> Self:
@@ -162,33 +202,61 @@ class ScoreTable:
         msgspec.ValidationError
             If it is not such content; the message names the place and the type that it must have.
         ValueError
-            If there are not as many errors as strata.
+            If there are not as many errors, people, or values of another metric, as strata.
         """
         kept = msgspec.convert(content, _Stored)
         if len(kept.strata) != len(kept.rmse_mm):
             raise ValueError(
                 f"{len(kept.rmse_mm)} errors for the strata of {len(kept.strata)} lifts"
             )
-        return cls(strata=kept.strata, values={LEADING: array("d", kept.rmse_mm)}, means=kept.means)
+        if kept.people and len(kept.people) != len(kept.strata):
+            raise ValueError(f"{len(kept.people)} people for {len(kept.strata)} lifts")
+        values = {LEADING: array("d", kept.rmse_mm)}
+        for name, lifts in kept.gentle.items():
+            if len(lifts) != len(kept.strata):
+                raise ValueError(f"{len(lifts)} values of {name} for {len(kept.strata)} lifts")
+            values[name] = array("d", (math.nan if each is None else each for each in lifts))
+        return cls(
+            strata=kept.strata,
+            people=kept.people,
+            values=values,
+            means=kept.means,
+            gentle=tuple(kept.gentle),
+        )
+
+
+def _people(suite: Suite) -> dict[tuple[str, str, str], str]:
+    """Return the person of each behaviour, subject and trial."""
+    return {
+        (each.behaviour, each.subject.name, each.trial): each.person for each in suite.scenarios
+    }
 
 
 class _Stored(msgspec.Struct):
     strata: tuple[Stratum, ...]
     rmse_mm: tuple[float, ...]
     means: dict[str, float | None]
+    people: tuple[str, ...] = ()
+    gentle: dict[str, tuple[float | None, ...]] = {}
 
 
 class Paired(NamedTuple):
     """A metric of two agents on the same lifts."""
 
-    one: tuple[float, ...]
-    other: tuple[float, ...]
-    strata: tuple[Stratum, ...]
+    one: FloatArray
+    other: FloatArray
+    units: Units
+    """The people of these lifts."""
 
     @property
     def ratio(self) -> Estimate:
-        """Mean of the first divided by that of the second."""
-        return ratio_of_means(*self)
+        """Geometric mean of the first divided by the second, over the lifts."""
+        return geometric_ratio(*self)
+
+    @property
+    def log_ratios(self) -> FloatArray:
+        """Logarithm of this ratio in each lift."""
+        return log_ratios(self.one, self.other)
 
     @property
     def difference(self) -> Estimate:
@@ -196,9 +264,9 @@ class Paired(NamedTuple):
         return paired_difference(*self)
 
     @property
-    def probability(self) -> float:
-        """Probability that the mean of the first is the lower one on such lifts."""
-        return probability_better(*self)
+    def probability(self) -> float | None:
+        """Probability that the :attr:`ratio` is below 1 with other people; None with one person."""
+        return probability_better(self.log_ratios, np.zeros(len(self.one)), self.units)
 
     def tested(self, p: float) -> PairedDifference:
         """Return the difference with its p value."""

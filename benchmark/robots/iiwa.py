@@ -17,7 +17,7 @@ from colift.agents.agent import FRAME
 from colift.benchmark.world.bullet import pybullet
 from colift.benchmark.world.engine import BulletEngine, Vector, load_urdf, pin
 from colift.benchmark.world.interface import Engine
-from colift.benchmark.world.table import FAR_GRIP, PITCH, WEIGHT_SHARE
+from colift.benchmark.world.table import FAR_GRIP, PITCH
 
 JOINTS: Final = 7
 """Number of joints."""
@@ -111,6 +111,7 @@ class IiwaArm:
 
     def __init__(self, engine: BulletEngine) -> None:
         self._client, step = engine.client, engine.physics.step
+        self._share = engine.weight_share
         self._body = load_urdf(self._client, urdf_path(), BASE)
         self._joints = list(range(JOINTS))
         self._rest = posture(0.0)
@@ -160,7 +161,7 @@ class IiwaArm:
             body, HAND, (0.0, 0.0, 0.0), angles, still, still, physicsClientId=client
         )
         torques = [
-            min(max(torque + lever * WEIGHT_SHARE, -most), most)
+            min(max(torque + lever * self._share, -most), most)
             for torque, lever, most in zip(torques, linear[2], EFFORT, strict=True)
         ]
         pybullet.setJointMotorControlArray(

@@ -1,89 +1,69 @@
-"""Confidence intervals, by a bootstrap within the strata of a suite."""
+"""The bootstrap by people, for statistics without a formula for their standard error."""
 
-from collections.abc import Callable, Hashable, Iterable
+import math
 from statistics import NormalDist
-from typing import Any
 
 import numpy as np
 from colift.base.errors import InputError
-from colift.benchmark.statistics.samples import (
-    FloatArray,
-    Interval,
-    Members,
-    expanded,
-    members_of,
-    resampled,
-    sample,
-)
-from numpy.typing import ArrayLike
+from colift.benchmark.statistics.samples import FloatArray, Interval
+from colift.benchmark.statistics.student import t_quantile
+from colift.benchmark.statistics.units import Units
+from numpy.typing import NDArray
 
 
-def stratified_bootstrap(
-    values: ArrayLike,
-    strata: Iterable[Hashable],
-    statistic: Callable[..., Any] = np.mean,
-    *,
-    resamples: int = 2000,
-    confidence: float = 0.95,
-    seed: int = 0,
-) -> Interval:
-    r"""Return a confidence interval of a statistic of the pooled values.
+def resampled_weights(units: Units, resamples: int, seed: int) -> FloatArray:
+    """Return how often each unit is in each resample, shape (resamples, k).
 
-    Each resample draws the episodes of every stratum anew, with replacement, from that stratum. The
-    interval is Hesterberg's expanded percentile interval: the quantiles :math:`q` and
-    :math:`1 - q` of the resampled statistic with
+    The units of each group are drawn anew from that group, with replacement.
+    """
+    rng = np.random.default_rng(seed)
+    weights = np.zeros((resamples, units.count))
+    for group in range(int(units.group.max()) + 1):
+        members = np.flatnonzero(units.group == group)
+        share = np.full(members.size, 1.0 / members.size)
+        weights[:, members] = rng.multinomial(members.size, share, resamples)
+    return weights
 
-    .. math:: q = \Phi\left(-\sqrt{\tfrac{n}{n - c}} \; t_{(1 + \text{confidence}) / 2, \, n - c}
-        \right)
 
-    for n episodes in c strata of two or more. Resampling m episodes understates their variance by
-    (m - 1) / m; the factor corrects that exactly for the mean over strata of one size or one
-    variance. In simulations of 4 to 20 strata of 3 to 15 episodes, 95 % intervals of the mean
-    covered 94 to 96 % for normal values. For moderately skewed ones (log-normal, sigma 0.5) they
-    covered 93 to 94 %, but 90 to 92 % in four or five strata of three; for strongly skewed ones
-    (sigma 1) 89 to 93 %, and 84 to 88 % in five strata of two. With the errors of the human-human
-    baseline and of ``copy`` on the standard suite they covered 94 to 95 %; with draws as in
-    ``quick-v1``, three in each of four strata of which one varies most, 89 to 93 %. The plain
-    percentile interval covers 86 to 88 % in strata of three.
-
-    A stratum of one episode cannot vary: it is kept as it is and adds no width, so the interval of
-    a suite with one seed has no width and no meaning.
+def resampled_means(values: FloatArray, units: Units, weights: FloatArray) -> FloatArray:
+    """Return the mean of the values in each resample, shape (..., resamples).
 
     Parameters
     ----------
     values
-        One value per episode, shape (n,).
-    strata
-        The stratum of each episode, for example ``(subject, behaviour)``; n of them.
-    statistic
-        Function of an array and ``axis=-1``, such as ``numpy.mean`` or
-        :func:`.interquartile_mean`.
-    resamples
-        Number of resamples.
-    confidence
-        Coverage of the interval, between 0 and 1.
-    seed
-        Seed of the resampling: the same inputs give the same interval.
-
-    Returns
-    -------
-    tuple of float
-        Lower and upper end, in the unit of the statistic.
-
-    Raises
-    ------
-    InputError
-        If ``values`` is empty or not finite, ``strata`` has another length, or ``confidence`` is
-        not between 0 and 1.
+        One value per episode, shape (..., n).
+    units
+        The people of these episodes.
+    weights
+        Resamples of :func:`resampled_weights`.
     """
-    x = sample("values", values)
-    members = members_of(strata, x.size)
-    found = resampled(lambda drawn: statistic(x[drawn], axis=-1), members, resamples, seed)
-    return expanded_percentile(found, members, confidence)
+    total: NDArray[np.float64] = units.sums(values) @ weights.T
+    return total / (weights @ units.sizes)
 
 
-def expanded_percentile(found: FloatArray, members: Members, confidence: float) -> Interval:
-    """Return Hesterberg's expanded percentile interval of a resampled statistic, shape (n,).
+def expansion(units: Units, confidence: float = 0.95) -> float:
+    """Return the normal deviate whose quantiles are the ends of an expanded interval.
+
+    See :func:`expanded_percentile`; it is larger, the fewer the units. There are at least two.
+    """
+    quantile = t_quantile((1.0 + confidence) / 2.0, units.freedom)
+    return quantile * math.sqrt(units.count / units.freedom)
+
+
+def expanded_percentile(
+    found: FloatArray, units: Units, confidence: float = 0.95
+) -> Interval | None:
+    r"""Return Hesterberg's expanded percentile interval of a resampled statistic, shape (n,).
+
+    The interval is that of the quantiles :math:`q` and :math:`1 - q` with
+
+    .. math:: q = \Phi\left(-\sqrt{\tfrac{k}{k - c}} \; t_{(1 + \text{confidence}) / 2, \, k - c}
+        \right)
+
+    for k units in c groups: the root corrects the variance of a resample, which is too small by
+    (m - 1) / m in a group of m units, and Student's t accounts for the uncertainty of that variance
+    (Hesterberg 2015). A resample cannot leave the range of the units: of fewer than about ten, the
+    interval is too narrow. Of a single unit there is none.
 
     Raises
     ------
@@ -92,7 +72,8 @@ def expanded_percentile(found: FloatArray, members: Members, confidence: float) 
     """
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence is {confidence}; it must lie between 0 and 1, such as 0.95")
-    z = NormalDist().inv_cdf((1.0 + confidence) / 2.0)
-    tail = NormalDist().cdf(-expanded(z, members))
+    if units.freedom == 0:
+        return None
+    tail = NormalDist().cdf(-expansion(units, confidence))
     low, high = np.quantile(found, (tail, 1.0 - tail))
     return float(low), float(high)

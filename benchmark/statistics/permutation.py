@@ -1,12 +1,10 @@
-"""The paired permutation test, by random sign flips, and the correction for many tests.
+"""The paired permutation test, by sign flips of people, and the correction for many tests.
 
 References
 ----------
 B. Phipson, G. K. Smyth (2010). Permutation p-values should never be zero: calculating exact
 p-values when permutations are randomly drawn. Statistical Applications in Genetics and Molecular
 Biology 9(1):39.
-
-J. Besag, P. Clifford (1991). Sequential Monte Carlo p-values. Biometrika 78(2):301-304.
 
 V. K. Bentkus, D. Dzindzalieta (2015). A tight Gaussian bound for weighted sums of Rademacher random
 variables. Bernoulli 21(2):1231-1237.
@@ -24,38 +22,31 @@ from typing import Final
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.statistics.samples import FloatArray, paired, sample
-from numpy.typing import ArrayLike, NDArray
+from colift.benchmark.statistics.units import Units
+from numpy.typing import ArrayLike
 
-BLOCK: Final = 256
-"""Number of tests made by one product of matrices."""
-
-CHUNK: Final = 10_000
-"""Number of sign flips that are drawn at once."""
-
-STOPS: Final = ((1_000, 100), (CHUNK, 10))
-"""A sequential test stops if, of that many flips, that many are as far from zero as the observed
-signs. The p value of 0.1 with which it may stop early is seven standard errors above 0.05; the one
-of 0.001, with which it may stop after each chunk, has a standard error of a third."""
-
-Signs = NDArray[np.int8]
-"""Sign flips, shape (resamples, n)."""
+ROUNDING: Final = 1e-9
+"""Flips that give the same sum in another order of rounding count as equal: relative bound."""
 
 
 def paired_permutation_p(
-    a: ArrayLike, b: ArrayLike, *, resamples: int = 10_000, seed: int = 0
+    a: ArrayLike, b: ArrayLike, units: Units, *, resamples: int = 10_000, seed: int = 0
 ) -> float:
-    """Return the two-sided p value for "a and b do not differ", by random sign flips.
+    """Return the two-sided p value for "a and b do not differ", by sign flips of people.
 
-    Under this hypothesis, each difference a - b is equally likely with the other sign. The p value
-    is the share of sign flips, including the observed signs, whose mean difference is at least as
-    far from zero; it is never below 1 / (resamples + 1) (Phipson & Smyth 2010).
+    Under this hypothesis, the sum of a person's differences a - b is equally likely with the other
+    sign. The p value is the share of sign flips, including the observed signs, whose total is at
+    least as far from zero; it is never below 1 / (flips + 1) (Phipson & Smyth 2010). See
+    :func:`sign_flips`.
 
     Parameters
     ----------
     a, b
         Values of two policies on the same episodes in the same order, each of shape (n,).
+    units
+        The people of these episodes.
     resamples
-        Number of random sign flips.
+        Largest number of sign flips.
     seed
         Seed of the flips: the same inputs give the same p value.
 
@@ -69,12 +60,17 @@ def paired_permutation_p(
     InputError
         If the values are empty, not finite or of unequal length.
     """
-    (p,) = permutation_ps_against(a, [b], resamples=resamples, seed=seed)
+    (p,) = permutation_ps_against(a, [b], units, resamples=resamples, seed=seed)
     return p
 
 
 def permutation_ps_against(
-    a: ArrayLike, others: Sequence[ArrayLike], *, resamples: int = 10_000, seed: int = 0
+    a: ArrayLike,
+    others: Sequence[ArrayLike],
+    units: Units,
+    *,
+    resamples: int = 10_000,
+    seed: int = 0,
 ) -> list[float]:
     """Return :func:`paired_permutation_p` of ``a`` and each of the others.
 
@@ -85,72 +81,31 @@ def permutation_ps_against(
     InputError
         As :func:`paired_permutation_p`.
     """
-    signs = _signs(sample("a", a).size, resamples, seed)
-    differences = [np.subtract(*paired("a", a, "b", b)) for b in others]
-    extreme = _extreme(np.stack(differences), signs) if differences else ()
-    return [(1 + int(count)) / (1 + resamples) for count in extreme]
+    sample("a", a)
+    if not others:
+        return []
+    differences = units.sums(np.stack([np.subtract(*paired("a", a, "b", b)) for b in others]))
+    signs = sign_flips(units.count, resamples, seed)
+    least = np.abs(differences.sum(axis=1)) - ROUNDING * np.abs(differences).sum(axis=1)
+    extreme = (np.abs(signs @ differences.T) >= least).sum(axis=0)
+    return [(1 + int(count)) / (1 + len(signs)) for count in extreme]
 
 
-def sequential_permutation_ps(
-    differences: FloatArray, *, resamples: int = 10_000, seed: int = 0
-) -> FloatArray:
-    """Return the p value of each row of differences, with fewer sign flips where it is large.
+@functools.lru_cache(maxsize=16)
+def sign_flips(units: int, resamples: int, seed: int = 0) -> FloatArray:
+    """Return sign flips of a number of units, 1 or -1, shape (flips, units), read-only.
 
-    A row takes part until enough flips are at least as far from zero as the observed signs (Besag &
-    Clifford 1991), see :data:`STOPS`: whether a p value is 0.2 or 0.3 does not matter. Where all
-    flips are made, this is :func:`permutation_ps_against`.
-
-    Parameters
-    ----------
-    differences
-        Differences of pairs of policies on the same episodes, shape (k, n).
-    resamples
-        Largest number of sign flips of a row.
-    seed
-        Seed of the flips.
-
-    Returns
-    -------
-    array
-        p values, shape (k,), not corrected for their number.
+    They are random ones, or all others than the observed signs where these are fewer: opposite
+    flips have the same distance from zero, so that one of each two is enough.
     """
-    extreme, flips = np.zeros((2, len(differences)), dtype=np.int64)
-    running = np.arange(len(differences))
-    for number, first in enumerate(range(0, resamples, CHUNK)):
-        signs = _signs(differences.shape[1], min(CHUNK, resamples - first), seed, number)
-        begun = 0
-        for stop, enough in STOPS if number == 0 else STOPS[-1:]:
-            some = signs[begun:stop]
-            extreme[running] += _extreme(differences[running], some)
-            flips[running] += len(some)
-            running = running[extreme[running] < enough]
-            begun = stop
-        if not running.size:
-            break
-    ps: FloatArray = (1 + extreme) / (1 + flips)
-    return ps
-
-
-@functools.lru_cache(maxsize=32)
-def _signs(episodes: int, resamples: int, seed: int, number: int = 0) -> Signs:
-    # Drawing the signs takes ten times as long as a test, and many tests are on the same episodes.
-    rng = np.random.default_rng((seed, number) if number else seed)
-    signs = rng.choice(np.array((-1, 1), dtype=np.int8), (resamples, episodes))
+    others = 2 ** (units - 1) - 1
+    if others <= resamples:
+        flipped = np.arange(1, 1 + others)[:, None] >> np.arange(units) & 1
+    else:
+        flipped = np.random.default_rng(seed).integers(0, 2, (resamples, units))
+    signs: FloatArray = 1.0 - 2.0 * flipped.astype(np.float64)
     signs.setflags(write=False)
     return signs
-
-
-def _extreme(differences: FloatArray, signs: Signs) -> NDArray[np.int64]:
-    """Return for each row of differences, shape (k, n), the number of flips as far from zero."""
-    flips = signs.astype(np.float64)
-    # Flips that give the same sum in another order of rounding count as equal.
-    least = np.abs(differences.sum(axis=1)) - 1e-9 * np.abs(differences).sum(axis=1)
-    found = np.empty(len(differences), dtype=np.int64)
-    for first in range(0, len(differences), BLOCK):
-        some = slice(first, first + BLOCK)
-        sums = flips @ differences[some].T
-        found[some] = (np.abs(sums, out=sums) >= least[some]).sum(axis=0)
-    return found
 
 
 def far_apart(p: float) -> float:

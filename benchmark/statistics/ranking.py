@@ -1,69 +1,120 @@
-"""Ranks that claim no more than the episodes show: indistinguishable policies share a rank."""
+"""Tests of all pairs of policies as one family, and the ranks that follow from them.
 
+References
+----------
+P. H. Westfall, S. S. Young (1993). Resampling-Based Multiple Testing. Wiley (max-T).
+
+J. P. Romano, M. Wolf (2005). Exact and approximate stepdown methods for multiple hypothesis
+testing. Journal of the American Statistical Association 100(469):94-108.
+"""
+
+import functools
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.benchmark.statistics.permutation import (
-    far_apart,
-    holm_correction,
-    sequential_permutation_ps,
-)
+from colift.benchmark.statistics.permutation import ROUNDING, far_apart, sign_flips
 from colift.benchmark.statistics.samples import FloatArray, paired
-from numpy.typing import ArrayLike, NDArray
+from colift.benchmark.statistics.units import Units
+from numpy.typing import ArrayLike
 
-RankGroups = tuple[tuple[str, ...], ...]
+LEVEL: Final = 0.04
+"""Largest p value at which two policies are told apart. Skewed differences make sign flips somewhat
+liberal; with this level, equal policies are told apart on at most 6 % of boards, as the command
+``colift statistics`` shows."""
 
-LEVEL: Final = 0.05
-"""Largest corrected p value at which two policies are distinguished."""
+FLIPS: Final = 10_000
+"""Sign flips of a family of few pairs."""
+
+FEWEST_FLIPS: Final = 1_000
+"""Sign flips of a family of any size."""
+
+MOST_VALUES: Final = 2**29
+"""Largest product of pairs and flips, beyond the fewest flips."""
+
+BLOCK: Final = 256
+"""Number of flips that are compared at once."""
 
 
-def decisive(policies: int, episodes: int, *, level: float = LEVEL) -> bool:
-    """Return whether :func:`rank_groups` can separate the best from any other at all.
+@dataclass(frozen=True, eq=False)
+class Family:
+    """The tests of all pairs of k policies on the same episodes."""
 
-    Of n episodes there are 2^n sign flips, and the smallest two-sided p value is 2^(1 - n): all
-    differences have the same sign. With k policies behind the best, Holm's correction multiplies
-    this by k. Three episodes are never enough; six are enough for one policy behind the best.
+    names: tuple[str, ...]
+    """The policies in the order of their means, the best first; equal ones in that of names."""
+    ps: FloatArray
+    """p value of each pair, shape (k, k), corrected for all pairs; 1 on the diagonal."""
+    level: float
+
+    def p(self, one: str, other: str) -> float:
+        """Return the p value for "these two do not differ", corrected for all pairs."""
+        return float(self.ps[self._places[one], self._places[other]])
+
+    def apart(self, one: str, other: str) -> bool:
+        """Return whether two policies differ beyond chance."""
+        return self.p(one, other) <= self.level
+
+    @functools.cached_property
+    def ranks(self) -> dict[str, int]:
+        """The rank of each policy, in the order of their means.
+
+        It is 1 + the number of policies that are better beyond chance, and at least the rank of any
+        policy with a smaller mean: who varies so much that nobody can be told from them does not
+        pass those who are better.
+        """
+        better = np.maximum.accumulate(np.tril(self.ps <= self.level, -1).sum(axis=1))
+        return {name: 1 + int(count) for name, count in zip(self.names, better, strict=True)}
+
+    @functools.cached_property
+    def _places(self) -> dict[str, int]:
+        return {name: i for i, name in enumerate(self.names)}
+
+
+def decisive(people: int, *, level: float = LEVEL) -> bool:
+    """Return whether this number of people can tell any two policies apart.
+
+    Of k people there are 2^k sign flips, and the smallest two-sided p value is 2^(1 - k): all
+    differences have the same sign. Five people are never enough; six are.
     """
-    return (policies - 1) * 2.0 ** (1 - episodes) <= level
+    return 2.0 ** (1 - people) <= level
 
 
-def rank_groups(
-    errors: Mapping[str, ArrayLike],
-    *,
-    level: float = LEVEL,
-    resamples: int = 10_000,
-    seed: int = 0,
-) -> RankGroups:
-    """Return the policies in groups, best first; those of a group share a rank.
+def all_pairs(
+    errors: Mapping[str, ArrayLike], units: Units, *, level: float = LEVEL, seed: int = 0
+) -> Family:
+    r"""Return the tests of all pairs of policies: step-down max-T by joint sign flips of people.
 
-    In the order of their means, the first policy is the anchor of the first group. Its paired
-    permutation tests against all policies behind it, Holm-corrected, show which of them differ from
-    it. The policies before the first that differs join its group; that policy is the next anchor,
-    and so on. The anchor of a group never moves: if each were compared with its neighbour instead,
-    small differences would chain, and the first and the last of a group could be far apart.
+    With the sum :math:`d_u` of the differences of a pair with person u, and signs :math:`s_u`, the
+    statistic of a pair is studentised,
 
-    The episodes therefore cannot distinguish any policy in a group from the group's best, and the
-    anchors of two neighbouring groups are distinguishable. Two policies of one group, or of
-    neighbouring groups, may still differ from each other in either direction; use
-    :func:`.paired_difference` for pairs.
+    .. math:: z(s) = \frac{|\sum_u s_u d_u|}{\sqrt{\sum_u d_u^2}},
+
+    which increases with \|t\|. All pairs have the same signs, so that their dependence is kept. The
+    corrected p value of a pair is the share of flips in which the largest z(s) of all pairs reaches
+    the observed z. Pairs with a p value up to the level are told apart; the others are tested again
+    among themselves, until no further pair is told apart. The probability that any two equal
+    policies are told apart is then the level, however many others differ (Romano & Wolf 2005).
+
+    Pairs that :func:`.far_apart` shows to be beyond every flip are not flipped: with thousands of
+    policies, these are most.
 
     Parameters
     ----------
     errors
         Error of each policy in the same episodes in the same order, each of shape (n,); smaller is
         better. Failed episodes are included, with the worst error.
+    units
+        The people of these episodes.
     level
-        Largest corrected p value at which two policies are distinguished.
-    resamples, seed
-        As for :func:`.paired_permutation_p`; where more than ``resamples`` / :data:`FLIPS` policies
-        are tested at once, there are :data:`FLIPS` flips for each.
+        Largest corrected p value at which two policies are told apart.
+    seed
+        Seed of the flips.
 
     Returns
     -------
-    tuple of tuples of str
-        Names, each group in the order of the means, its anchor first. The order of ``errors``
-        does not matter; policies of equal mean are in the order of their names.
+    Family
+        The tests; the order of ``errors`` does not matter.
 
     Raises
     ------
@@ -72,87 +123,67 @@ def rank_groups(
     """
     names = sorted(errors)
     samples = {name: paired(names[0], errors[names[0]], name, errors[name])[1] for name in names}
-    order = sorted(names, key=lambda name: float(np.mean(samples[name])))
-    if not names:
-        return ()
+    order = tuple(sorted(names, key=lambda name: float(np.mean(samples[name]))))
+    if not order:
+        return Family(names=(), ps=np.ones((0, 0)), level=level)
     rows = np.array([samples[name] for name in order])
-    spread, groups, first = _Spread(rows), [], 0
-    while first < len(order):
-        size = 1 + _sharing(rows, first, spread.behind(first), level, resamples, seed)
-        groups.append(tuple(order[first : first + size]))
-        first += size
-    return tuple(groups)
+    # How difficult a person is cancels; without it, the products lose no digits.
+    sums = units.sums(rows - rows.mean(axis=0))
+    ps = _step_down(sums, level, seed)
+    return Family(names=order, ps=ps, level=level)
 
 
-FLIPS: Final = 40
-"""Sign flips for each test. Corrected for n tests (Holm), the smallest p value that m flips can
-give is n / (m + 1). With m = 40 n that is half of the level; with fewer than 20 n flips, no two
-policies could be distinguished."""
+def _step_down(sums: FloatArray, level: float, seed: int) -> FloatArray:
+    """Return the corrected p value of each two rows of ``sums``, shape (k, k)."""
+    norms = np.sqrt(np.triu(_squares(sums), 1))
+    scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0.0)
+    total = sums.sum(axis=1)
+    z = np.abs(total[:, None] - total) * scale * (1.0 - ROUNDING)
+    pairs = max(1, len(sums) * (len(sums) - 1) // 2)
+    signs = sign_flips(sums.shape[1], max(FEWEST_FLIPS, min(FLIPS, MOST_VALUES // pairs)), seed)
+    least = 1.0 / (1.0 + len(signs))
+    flipped = np.ascontiguousarray((signs @ sums.T).T)
+    ps = np.where(scale > 0.0, least, 1.0)
+    waiting = (scale > 0.0) & (z < far_apart(least / pairs))
+    passed, lowest = waiting.any(), least
+    while passed:
+        largest = np.sort(_largest(flipped, np.where(waiting, scale, 0.0)))
+        reached = len(signs) - np.searchsorted(largest, z[waiting])
+        ps[waiting] = np.maximum(lowest, (1 + reached) * least)
+        passed = waiting & (ps <= level)
+        lowest = ps[passed].max(initial=lowest)
+        waiting &= ~passed
+        passed = passed.any() and waiting.any()
+    return np.minimum(ps, ps.T)
 
 
-def _sharing(
-    rows: FloatArray, first: int, z2: FloatArray, level: float, resamples: int, seed: int
-) -> int:
-    """Return the number of rows behind an anchor that share its group.
+def _largest(flipped: FloatArray, scale: FloatArray) -> FloatArray:
+    """Return the largest statistic of all pairs in each flip, shape (flips,).
 
-    Most policies are so far behind that a bound of the p value rejects them; the others are tested.
-    This is Holm's procedure over all of them.
+    Parameters
+    ----------
+    flipped
+        Flipped sums of each policy, shape (k, flips).
+    scale
+        Factor of each pair's difference, shape (k, k); zero for pairs that do not count.
     """
-    apart = _surely_apart(z2, level)
-    near = np.flatnonzero(~apart)
-    if near.size:
-        differences = rows[first] - rows[first + 1 + near]
-        ps = sequential_permutation_ps(
-            differences, resamples=max(resamples, FLIPS * near.size), seed=seed
-        )
-        apart[near] = holm_correction(ps) <= level
-    return int(apart.argmax()) if apart.any() else len(apart)
+    found = np.zeros(flipped.shape[1])
+    for first in range(0, flipped.shape[1], BLOCK):
+        some = flipped[:, first : first + BLOCK]
+        best = found[first : first + BLOCK]
+        for i, factors in enumerate(scale):
+            (columns,) = factors.nonzero()
+            if columns.size:
+                near = slice(columns[0], columns[-1] + 1)
+                values = np.abs(some[near] - some[i])
+                values *= factors[near, None]
+                np.maximum(best, values.max(axis=0), out=best)
+    return found
 
 
-def _surely_apart(z2: FloatArray, level: float) -> NDArray[np.bool_]:
-    """Return which tests :func:`.far_apart` rejects, step by step as in Holm's procedure.
-
-    ``z2`` has the squared deviates of the tests, shape (m,).
-    """
-    left = len(z2)
-    apart = np.zeros(left, dtype=np.bool_)
-    while left:
-        apart = z2 >= far_apart(level / left) ** 2
-        if len(z2) - int(apart.sum()) == left:
-            break
-        left = len(z2) - int(apart.sum())
-    return apart
-
-
-class _Spread:
-    """Squared deviates of paired differences, for blocks of anchors at a time.
-
-    The deviate of a row from an anchor is the sum of their differences over the root of the sum of
-    their squares. It is rounded down, never up.
-    """
-
-    def __init__(self, rows: FloatArray) -> None:
-        # How difficult a lift is cancels; without it, the products lose no digits.
-        self._rows = rows - rows.mean(axis=0)
-        self._sums = self._rows.sum(axis=1)
-        self._squares = (self._rows**2).sum(axis=1)
-        self._first, self._products = 0, np.empty((0, 0))
-
-    def behind(self, anchor: int) -> FloatArray:
-        """Return the squared deviates of the rows behind one, shape (m,)."""
-        if not self._first <= anchor < self._first + len(self._products):
-            self._first = anchor
-            self._products = self._rows[anchor : anchor + ANCHORS] @ self._rows[anchor:].T
-        products = self._products[anchor - self._first, anchor + 1 - self._first :]
-        both = self._squares[anchor] + self._squares[anchor + 1 :]
-        squares = both - 2.0 * products + ROUNDING * both
-        total = self._sums[anchor + 1 :] - self._sums[anchor]
-        z2: FloatArray = np.divide(total**2, squares, out=np.zeros_like(total), where=squares > 0.0)
-        return z2
-
-
-ANCHORS: Final = 128
-"""Number of anchors whose products with all rows are made at once."""
-
-ROUNDING: Final = 1e-9
-"""Bound of the relative rounding error of those."""
+def _squares(sums: FloatArray) -> FloatArray:
+    """Return the sum of squared differences of each two rows, shape (k, k), rounded up."""
+    own = (sums**2).sum(axis=1)
+    both = own[:, None] + own[None, :]
+    squares = both - 2.0 * (sums @ sums.T)
+    return np.where(squares > ROUNDING * both, squares, 0.0)

@@ -4,57 +4,40 @@ Better means smaller: the values are errors.
 
 References
 ----------
-B. Efron, R. J. Tibshirani (1998). The problem of regions. The Annals of Statistics
-26(5):1687-1718 (the share of a bootstrap as a confidence level).
-
 R. Agarwal et al. (2021). Deep reinforcement learning at the edge of the statistical precipice.
 NeurIPS 34 (probability of improvement).
 """
 
-from collections.abc import Hashable, Iterable
-from statistics import NormalDist
-from typing import Final
-
 import numpy as np
-from colift.benchmark.statistics.samples import Members, expanded, members_of, paired, resampled
+from colift.benchmark.statistics.samples import paired
+from colift.benchmark.statistics.student import t_cdf
+from colift.benchmark.statistics.units import Units
 from numpy.typing import ArrayLike
 
-DEVIATES: Final = np.linspace(-8.0, 8.0, 3201)
-"""Normal deviates between which :func:`.expanded` is inverted; 8 lies beyond any resampling."""
 
+def probability_better(a: ArrayLike, b: ArrayLike, units: Units) -> float | None:
+    r"""Return the probability that the mean of a is below that of b with other such people.
 
-def probability_better(
-    a: ArrayLike,
-    b: ArrayLike,
-    strata: Iterable[Hashable],
-    *,
-    resamples: int = 2000,
-    seed: int = 0,
-) -> float:
-    r"""Return the probability that the mean of a is below that of b on such episodes.
+    With the mean difference :math:`\bar d` and its standard error :math:`s` between k people in c
+    groups,
 
-    It is the share of resamples in which the mean of the paired differences a - b is negative, ties
-    counted half, with the small-sample expansion of :func:`.stratified_bootstrap` undone:
+    .. math:: P = F_{k - c}(-\bar d / s)
 
-    .. math:: P = \Phi(z), \quad \sqrt{\tfrac{n}{n - c}} \; t_{\Phi(z), \, n - c}
-        = \Phi^{-1}\left(\frac{\#\{\bar d^* < 0\} + \tfrac12 \#\{\bar d^* = 0\} + \tfrac12}
-        {\text{resamples} + 1}\right)
-
-    It is therefore above 0.975 if the 95 % interval of :func:`.paired_difference` lies below zero.
-    If the true means are equal, P is uniform between 0 and 1. For strata of one episode it is
-    meaningless, like the interval.
+    of the distribution function F of Student's t. It is above 0.975 if the 95 % interval of
+    :func:`.paired_difference` lies below zero. If the true means are equal, P is uniform between 0
+    and 1.
 
     Parameters
     ----------
     a, b
         Errors of two policies on the same episodes in the same order, each of shape (n,).
-    strata, resamples, seed
-        As for :func:`.stratified_bootstrap`.
+    units
+        The people of these episodes.
 
     Returns
     -------
-    float
-        Probability, above 0 and below 1; 0.5 if all values are equal.
+    float or None
+        Probability, 0 to 1; 0.5 if all values are equal; None if all episodes are of one person.
 
     Raises
     ------
@@ -62,17 +45,13 @@ def probability_better(
         If the values are empty, not finite or of unequal length.
     """
     x, y = paired("a", a, "b", b)
-    members = members_of(strata, x.size)
     left = x - y
-    means = resampled(lambda drawn: left[drawn].mean(axis=-1), members, resamples, seed)
-    below = float((means < 0.0).sum() + 0.5 * (means == 0.0).sum())
-    return NormalDist().cdf(
-        _unexpanded(NormalDist().inv_cdf((below + 0.5) / (resamples + 1)), members)
-    )
-
-
-def _unexpanded(z: float, members: Members) -> float:
-    return float(np.interp(z, expanded(DEVIATES, members), DEVIATES))
+    mean, error = float(left.mean()), units.standard_error(left)
+    if error is None:
+        return None
+    if error <= 1e-12 * float(np.abs(left).max()):
+        return 0.5 if mean == 0.0 else float(mean < 0.0)
+    return t_cdf(-mean / error, units.freedom)
 
 
 def share_better(a: ArrayLike, b: ArrayLike) -> float:

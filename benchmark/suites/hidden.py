@@ -47,9 +47,10 @@ def keyed(secret: bytes, *labels: str | int) -> bytes:
 def hidden_suite(suite: Suite, secret: bytes) -> Suite:
     """Return the hidden counterpart of a public suite, of the same size.
 
-    In each scenario s a new person moves with the same behaviour, and the lifts k have new seeds:
+    Each person p of the suite is replaced by a new one, the same in all of p's scenarios, and the
+    lifts k have new seeds:
 
-        person(s) = Subject.draw(HMAC(secret, "person", suite's name and digest, name of s))
+        person(p) = Subject.draw(HMAC(secret, "person", suite's name and digest, name of p))
         seed(k) = HMAC(secret, "lift", suite's name and digest, k)
 
     128 bits each. Plan and noise of a lift follow from its seed and the scenario's name
@@ -64,10 +65,12 @@ def hidden_suite(suite: Suite, secret: bytes) -> Suite:
         The board's secret.
     """
     place = (suite.name, suite.digest)
+    people = {
+        name: Subject.draw(_seed(secret, "person", *place, name))
+        for name in dict.fromkeys(scenario.subject.name for scenario in suite.scenarios)
+    }
     scenarios = tuple(
-        dataclasses.replace(
-            scenario, subject=Subject.draw(_seed(secret, "person", *place, scenario.name))
-        )
+        dataclasses.replace(scenario, subject=people[scenario.subject.name])
         for scenario in suite.scenarios
     )
     seeds = tuple(_seed(secret, "lift", *place, k) for k in range(len(suite.seeds)))

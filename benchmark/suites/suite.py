@@ -4,12 +4,12 @@ import dataclasses
 import hashlib
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from colift.agents.humans import SUBJECTS, Recorded, load_recordings
+from colift.agents.humans import Recorded, load_recordings
 from colift.base.errors import InputError
 from colift.base.plugins import article, blaming
 from colift.base.registry import SUITES, called, lookup
@@ -17,7 +17,8 @@ from colift.benchmark.episode.identity import plain, scores_hash
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.robots.robot import make_robot
-from colift.benchmark.suites.catalogue import RECORDED, TASK, make_scenario, make_task
+from colift.benchmark.suites.catalogue import RECORDED, TASK, make_scenario, make_subject, make_task
+from colift.benchmark.suites.ranges import RECORDED_PEOPLE
 from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 
 LONGEST_SUITE_NAME: Final = 200
@@ -138,6 +139,8 @@ class Suite:
     def with_timing(self, latency: float | None, control_period: float | None) -> "Suite":
         """Return the same episodes with another latency or control period [s].
 
+        With conditions, it is the latency of all lifts; jitter and losses remain.
+
         Raises
         ------
         InputError
@@ -154,8 +157,16 @@ class Suite:
         return dataclasses.replace(
             self,
             name=f"{self.name} ({shown})",
-            scenarios=tuple(dataclasses.replace(scene, **changes) for scene in self.scenarios),
+            scenarios=tuple(_timed(scene, changes) for scene in self.scenarios),
         )
+
+
+def _timed(scenario: Scenario, changes: Mapping[str, Any]) -> Scenario:
+    """Return a scenario with another latency or control period [s]."""
+    conditions, latency = scenario.conditions, changes.get("latency")
+    if conditions is not None and latency is not None:
+        conditions = dataclasses.replace(conditions, latency=(latency, latency))
+    return dataclasses.replace(scenario, conditions=conditions, **changes)
 
 
 def plain_name(name: str) -> str:
@@ -186,20 +197,19 @@ def make_suite(name: str) -> Suite:
 
 
 def recorded_suite(path: Path) -> Suite:
-    """Return a suite of recorded lifts: each trial once, the subjects' bodies in turn.
+    """Return a suite of recorded lifts: each trial once, with the body of another drawn person.
 
     Raises
     ------
     InputError
         If the file cannot be used; the message states the place and the reason.
     """
-    subjects = list(SUBJECTS.values())
     scenarios = tuple(
         Scenario(
             behaviour=RECORDED,
             human=Recorded(recording=recording),
             trial=recording.name,
-            subject=subjects[i % len(subjects)],
+            subject=make_subject(f"draw-{RECORDED_PEOPLE[i % len(RECORDED_PEOPLE)]}"),
             task=make_task(TASK),
         )
         for i, recording in enumerate(load_recordings(path))

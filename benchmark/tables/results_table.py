@@ -10,7 +10,13 @@ from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
-from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
+from colift.benchmark.results.roughness import MEANING, by_which
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    spread_over_people,
+)
 from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
@@ -35,6 +41,11 @@ TIMES: Final = {
 PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
 """Meaning of the column beside the RMSE."""
 
+QUARTILES: Final = "quartiles"
+
+SPREAD: Final = "quartiles: of the means of each person."
+"""Meaning of the next column."""
+
 
 def results_table(content: Results, metrics: Metrics) -> Table:
     """Return the table of a result: one row per behaviour, and the mean over all."""
@@ -44,7 +55,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     return table(
         f"{content.policy} on {content.suite}{_over(content)}",
-        ("human", "RMSE mm", people, *(metric.heading for metric in shown)),
+        ("human", "RMSE mm", people, QUARTILES, *(metric.heading for metric in shown)),
         [
             *(
                 (name, *_row([each for each in strata if each.behaviour == name], shown))
@@ -54,11 +65,11 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             styled(("all", *_row(strata, shown)), "bold"),
         ],
         caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
-        f"suite digest {content.suite_digest}. {PEOPLE} {notes(shown)}",
+        f"suite digest {content.suite_digest}. {PEOPLE} {SPREAD} {notes(shown)}",
     )
 
 
-def results_text(content: Results) -> str:
+def results_text(content: Results, metrics: Metrics) -> str:
     """Return the lines that compare the policy with the baselines."""
     summary, step = content.summary, content.summary.step_ms
     lines = [error(summary)]
@@ -66,6 +77,8 @@ def results_text(content: Results) -> str:
         lines.append(f"Channel to the policy: {content.channel}. The baselines have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
+    if summary.rougher:
+        lines.append(f"{MEANING} This policy is, by {by_which(summary.rougher, metrics)}.")
     for name, baseline in content.baselines.items():
         lines.append(f"  {NAMES.get(name, name)}: {baseline.mean:.2f} mm")
     if summary.goal_missed and content.goals is None:  # A real person need not follow the plan.
@@ -98,7 +111,9 @@ def _row(strata: Sequence[StratumScore], shown: Sequence[Metric]) -> list[str]:
     """Return the cells of a row: the means over the episodes of some strata."""
     errors = (mean_of_strata(strata).mean, human_human_mean(strata))
     means = (metric.text(mean_of_strata(strata, metric.name).mean) for metric in shown)
-    return [*(optional_number(error, ".1f") for error in errors), *means]
+    spread = spread_over_people(strata)
+    quartiles = f"{spread.lower:.1f} to {spread.upper:.1f}" if spread.people > 1 else ""
+    return [*(optional_number(error, ".1f") for error in errors), quartiles, *means]
 
 
 def timing_table(report: dict[str, Any]) -> Table:

@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple, cast
 
 import numpy as np
-from colift.agents.humans import SUBJECTS
-from colift.agents.rules import SCALARS, ArrayFunctions, N
+from colift.agents.rules import SCALARS, ArrayFunctions, Drawn, N, View
 from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
 FINER: Final = Physics(step=0.0025)
@@ -35,26 +33,66 @@ class Ends(NamedTuple):
     """Place of the ball; 0 without one."""
 
 
+def held(squares: Any, stay: int) -> Any:
+    """Return the means of ``stay`` successive frames, from each frame that has so many.
+
+    Parameters
+    ----------
+    squares
+        (T,) for one lift, or (T, n) for n lifts [m2]; T is at least ``stay``.
+    stay
+        Number of frames, 1 or more.
+    """
+    means = len(squares) - stay + 1
+    # No cumulative sums: their rounding in single precision is as large as a square millimetre.
+    return sum(squares[first : first + means] for first in range(stay)) / stay
+
+
+def gathered(squares: Any, stay: int) -> Any:
+    """Return the squares of a lift's frames as one number of each lift.
+
+    Parameters
+    ----------
+    squares
+        (T,) for one lift, or (T, n) for n lifts [m2].
+    stay
+        Frames for which a place has to be held: the least mean over so many successive frames
+        (:func:`held`; of a shorter lift, the mean). With 0 it is the sum over all frames.
+    """
+    return held(squares, min(stay, len(squares))).min(axis=0) if stay else squares.sum(axis=0)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Touch(Level):
     """The base of tasks with touch: subclasses state purpose, end and scores.
 
     The robot has the senses of sight and of touch, and those of :attr:`senses`. The rules
-    :meth:`missed`, :meth:`error` and :meth:`lost` are read by the engine and by the twin; with
-    NumPy, too, so that ``missed`` may use arithmetic and ``f.abs`` only.
+    :meth:`missed`, :meth:`error`, :meth:`unfinished` and :meth:`lost` are read by the engine and by
+    the twin; ``missed`` with NumPy, too, so that it may use arithmetic, ``f.abs`` and ``f.where``
+    only.
     """
 
     touch: ClassVar[bool] = True
     physics: ClassVar[Physics] = FINER
-    least: ClassVar[tuple[bool, ...]] = (False,)
-    """For each number of :meth:`missed`, whether the least of a lift counts, or the sum."""
+    stays: ClassVar[tuple[int, ...]] = (0,)
+    """For each number of :meth:`missed`, how its frames are gathered; see :func:`gathered`."""
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> BulletWorld:
         """Return a world with torques at both grips, and with the ball."""
         return BulletWorld(
-            human, far_end, physics=physics or self.physics, touch=True, ball=self.rolling
+            human,
+            far_end,
+            table,
+            physics=physics or self.physics,
+            touch=True,
+            ball=self.rolling,
         )
 
     @property
@@ -86,12 +124,19 @@ class Touch(Level):
         facts
             The task's numbers.
         gathered
-            The squares of all frames, gathered as :attr:`least` says.
+            The squares of all frames, gathered as :attr:`stays` says.
         frames
             Number of frames.
         """
         error: N = gathered[0] / frames
         return error
+
+    def unfinished(self, f: ArrayFunctions[N], drawn: Drawn[N], view: View[N]) -> N:
+        """Return how many frames of the person's plan are still to be done, at the end of a lift.
+
+        Each counts like a frame that a failure cut off, with :data:`.FAILED_FRAME_MM`.
+        """
+        return 0.0 * view.command
 
     def lost(self, f: ArrayFunctions[N], ends: Any) -> Any:
         """Return whether the lift is lost in a frame."""
@@ -117,9 +162,13 @@ class Touch(Level):
         return f"the task {self.name!r} is lost" if lost else super().failure(lift)
 
     def rmse_mm(self, lift: Playing, trace: Trace, ball: Any = 0.0) -> float:
-        """Return the root mean square error of a lift [mm].
+        r"""Return the root mean square error of a lift [mm].
 
-        Each frame that a failure cut off counts with :data:`.FAILED_FRAME_MM`.
+        .. math:: \sqrt{\frac{T e^2 + M \cdot 250^2}{T + M}}
+
+        with the error e of the T frames that were played. M frames are missing: those that a
+        failure cut off, or those of the plan that are unfinished, whichever are more. Each counts
+        with :data:`.FAILED_FRAME_MM`.
         """
         frames = len(trace.human_end)
         if frames == 0:
@@ -127,13 +176,13 @@ class Touch(Level):
         due = {name: series[:frames] for name, series in _series(lift.due).items()}
         ends = Ends(trace.human_end, trace.robot_end, ball)
         found = self.missed(cast(Any, np), type(lift.due)(**due) if due else (), ends)
-        gathered = [
-            float(np.min(each) if least else np.sum(each))
-            for each, least in zip(found, self.least, strict=True)
+        squares = [
+            float(gathered(each, stay)) for each, stay in zip(found, self.stays, strict=True)
         ]
-        error = self.error(SCALARS, lift.facts, gathered, frames)
-        cut = (lift.horizon - frames) * FAILED_FRAME_MM**2
-        return math.sqrt((1e6 * frames * error + cut) / lift.horizon)
+        error = self.error(SCALARS, lift.facts, squares, frames)
+        missing = max(lift.horizon - frames, self.unfinished(SCALARS, lift.drawn, lift))
+        cut = missing * FAILED_FRAME_MM**2
+        return math.sqrt((1e6 * frames * error + cut) / (frames + missing))
 
     def series(self, lift: Playing) -> Mapping[str, NDArray[np.float64]]:
         """Return the task's series, the place of the ball, and the torque of the robot's hands."""
@@ -161,13 +210,3 @@ def frame_of(due: Any, frame: int) -> Any:
 def torque_of(lift: Playing) -> Any:
     """Return the torque of the robot's hands in each frame since the beginning [Nm]."""
     return np.array(lift.world.robot_torque[-lift.frame :][: lift.frame])
-
-
-def subjects_suite(name: str, task: type[Touch], seeds: int) -> Suite:
-    """Return a suite of a task: each behaviour of each of the five subjects, with some seeds."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject, task=task.name)
-        for behaviour in task.behaviours
-        for subject in SUBJECTS
-    )
-    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))

@@ -18,13 +18,10 @@ from colift.agents.control.anticipation import Anticipation, FeatureWindow
 from colift.agents.estimators.perceptron import Perceptron
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
-from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.training.data import LEADS, ROAMING, Timing, TrainingData, training_data
+from colift.benchmark.training.data import LEADS, Timing, TrainingData, training_data
+from colift.benchmark.training.population import CURRICULUM
 from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
 from numpy.typing import NDArray
-
-CURRICULUM: Final = (*BEHAVIOURS, ROAMING)
-"""Behaviours of the people in the training data, in turn."""
 
 FIRST_SEED: Final = TRAINING_SEEDS[0]
 """Seed of the first lift, far from those of the suites, the calibration and the demonstrations."""

@@ -54,7 +54,7 @@ def first_learner(
     settings: ApgSettings, seed: int, lesson: GradientLesson | None = None
 ) -> Learner:
     """Return the learner before the first update; arguments as for :func:`updates`."""
-    network = (lesson or lesson_of(settings.task)).first(settings, seed)
+    network = (lesson or lesson_of(settings.task, alone=settings.alone)).first(settings, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
 
@@ -80,7 +80,7 @@ def updates(
     lesson
         A lesson to use instead of that of the settings' task.
     """
-    lesson = lesson or lesson_of(settings.task)
+    lesson = lesson or lesson_of(settings.task, alone=settings.alone)
     learner = learner or first_learner(settings, seed, lesson)
     lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser

@@ -40,7 +40,8 @@ def train_apg(
     InputError
         If the course cannot be resumed, the training diverges, or a file cannot be written.
     """
-    lesson, learner = lesson_of(settings.task), first_learner(settings, course.seed)
+    lesson = lesson_of(settings.task, alone=settings.alone)
+    learner = first_learner(settings, course.seed, lesson)
     state = course.load(_shapes(learner))
     if state is not None:
         learner = _unpacked(learner, state)
@@ -49,7 +50,7 @@ def train_apg(
     pool = lesson.draw(settings)
     every = max(EVERY, settings.updates // POINTS)
     steps_of_update = settings.batch * lesson.steps(pool)
-    for update in updates(settings, course.seed, learner, pool):
+    for update in updates(settings, course.seed, learner, pool, lesson):
         learner = update.learner
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)

@@ -7,13 +7,14 @@ from typing import Final
 from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.tasks.level.task import LEVEL
+from colift.benchmark.training.population import SHARE
 
 NAME: Final = "apg"
 
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
-OF_SIGHT: Final = ("encoders", "smoothness", "gentleness")
+OF_SIGHT: Final = ("unsettled", "encoders", "smoothness", "gentleness")
 """Settings that only the training of a level table uses."""
 
 
@@ -44,6 +45,9 @@ class ApgSettings:
     of lifts with people, bodies and sensors from wide ranges. For tasks with hurdles and poses:
     extension of the ranges of people's manners beyond the population's. With a ball, people always
     have the population's manners, since others fling it about."""
+    unsettled: int = SHARE
+    """Lifts for every five others in which the hand waits, dips before the lift, halts, or ends off
+    its start. Only for a level table."""
     varied: float = 0.2
     """Variation of the robot's arms in the last update. See :meth:`varied_in`."""
     encoders: float = 1e-4
@@ -54,6 +58,8 @@ class ApgSettings:
     """Weight of the cost of bends beside the RMSE. Only for a level table."""
     gentleness: float = 0.0
     """Cost of the force at the human's hands, in mm/N. Only for a level table."""
+    alone: bool = False
+    """Blind to the partner, who is seen only to keep level. Only for tasks with touch."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -61,6 +67,8 @@ class ApgSettings:
         unused = OF_SIGHT if task.touch else ()
         if task.touch and not any(trait.wider for trait in task.person.traits.values()):
             unused = (*unused, "wide")
+        if not task.touch:
+            unused = (*unused, "alone")
         for name in unused:
             if getattr(self, name) != getattr(ApgSettings, name):
                 raise InputError(f"--{name} has no effect on the task {self.task!r}")
@@ -69,6 +77,8 @@ class ApgSettings:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
         if self.batch < PARTS or self.batch % PARTS:
             raise InputError(f"--batch must be a multiple of {PARTS}, got {self.batch}")
+        if self.unsettled < 0:
+            raise InputError(f"--unsettled must be at least 0, got {self.unsettled}")
         if not 0 <= self.wide < 1:
             raise InputError(f"--wide must be at least 0 and below 1, got {self.wide}")
         for name in ("varied", "encoders", "smoothness", "gentleness"):

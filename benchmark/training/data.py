@@ -16,7 +16,7 @@ from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario, make_subject
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.labels import modes, stroke_ends
-from colift.benchmark.training.roaming import Roaming
+from colift.benchmark.training.population import UNREGISTERED
 from colift.benchmark.world import since_reset
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
@@ -25,9 +25,6 @@ Array = NDArray[np.float64]
 
 LEADS: Final = tuple(round(0.05 * i, 2) for i in range(10))
 """Times from now to forecast [s]: the policy's horizon, and a little more."""
-
-ROAMING: Final = "roaming"
-"""Name of the behaviour :class:`.Roaming`, which is in no registry."""
 
 LOOKS: Final = 5
 """Number of times at which each period of a lift is sampled, as if the robot had decided then."""
@@ -78,17 +75,18 @@ def scenario(seed: int, behaviours: Sequence[str], timing: Timing) -> Scenario:
     seed
         Seed of the person and the lift.
     behaviours
-        Names of registered behaviours, and ``roaming``: :class:`.Roaming`.
+        Names of registered behaviours, and of :data:`.UNREGISTERED`.
     timing
         Latency and control period.
     """
     behaviour, subject = behaviours[seed % len(behaviours)], f"draw-{seed}"
     latency, period = timing.latency, timing.control_period
-    if behaviour != ROAMING:
+    human = UNREGISTERED.get(behaviour)
+    if human is None:
         return make_scenario(behaviour, subject, control_period=period, latency=latency)
     return Scenario(
         behaviour=behaviour,
-        human=Roaming(),
+        human=human,
         subject=make_subject(subject),
         control_period=period,
         latency=latency,

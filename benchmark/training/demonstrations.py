@@ -37,18 +37,17 @@ from colift.agents.agent import FRAME
 from colift.agents.humans import SecondPerson
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
-from colift.base.registry import SUITES, own_entries
 from colift.base.text import decoded, read_bytes
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.suites.suite import make_suite
+from colift.benchmark.suites.ranges import DEMONSTRATING_PEOPLE, LEARNING_PEOPLE
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 from numpy.typing import NDArray
 
-FIRST_SEED: Final = 60_000
-"""Seed of the first demonstration, far from those of the suites and of the calibration."""
+FIRST_SEED: Final = DEMONSTRATING_PEOPLE[0]
+"""Seed of the first demonstration and number of its person, who is in no suite."""
 
 LIFTS: Final = 400
 """Lifts from which a robot learns: 100 of each behaviour, each by another person."""
@@ -134,17 +133,15 @@ def demonstrations(
     Raises
     ------
     InputError
-        If there is no lift, or a suite has one of the seeds: a policy must not learn from test
-        lifts.
+        If there is no lift, or a person is not one to learn from.
     """
     if lifts < 1:
         raise InputError(f"lifts must be at least 1, got {lifts}")
-    taken = {each for name in own_entries(SUITES) for each in make_suite(name).seeds}
     seeds = range(seed, seed + lifts)
-    if seed < 0 or not taken.isdisjoint(seeds):
+    if not (seeds[0] in LEARNING_PEOPLE and seeds[-1] in LEARNING_PEOPLE):
         raise InputError(
-            f"seeds must be above {max(taken)}, the last seed of the suites; got {seed} to "
-            f"{seeds[-1]}"
+            f"seeds for learning are {LEARNING_PEOPLE[0]} to {LEARNING_PEOPLE[-1]}, others are "
+            f"for tests; got {seeds[0]} to {seeds[-1]}"
         )
     return map(demonstrate, seeds) if executor is None else executor.map(demonstrate, seeds)
 

@@ -10,12 +10,12 @@ from colift.benchmark.training.touch_lesson import TouchLesson
 
 
 @cache
-def lesson_of(task: str) -> PolicyLesson:
-    """Return the lesson of a task.
+def lesson_of(task: str, *, alone: bool = False) -> PolicyLesson:
+    """Return the lesson of a task, and for a network that is blind to its partner if ``alone``.
 
     Raises
     ------
     InputError
         If there is no such task, or it is neither ``level`` nor stated by rules.
     """
-    return LevelLesson() if make_task(task) == LEVEL else TouchLesson(task)
+    return LevelLesson() if make_task(task) == LEVEL else TouchLesson(task, alone=alone)

@@ -36,8 +36,8 @@ class LevelLesson:
         return first_network(INPUTS, settings.units, seed)
 
     def draw(self, settings: ApgSettings) -> Pool:
-        """Return lifts with people of the benchmark's population and of wide habits."""
-        return draw_pool(settings.lifts, settings.wide)
+        """Return lifts with people of the benchmark's population, and of wide habits."""
+        return draw_pool(settings.lifts, settings.wide, settings.unsettled)
 
     def steps(self, pool: Pool) -> float:
         """Return the mean number of control steps of these lifts."""

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 import jax
@@ -14,19 +15,19 @@ from colift.agents.humans.subject import BOUNDS
 from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
-from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.training.anticipation import CURRICULUM, FIRST_SEED
+from colift.benchmark.training.anticipation import FIRST_SEED
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.training.lesson import BatchDraw
+from colift.benchmark.training.population import curriculum
 from colift.benchmark.training.validation import learning_seeds
 from colift.benchmark.training.wandering import Wandering
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.lifts import DrawnLift, Lifts, carried_out, some, stack
 from colift.benchmark.twin.rollout import Sensing, rollout
 
-LONGEST: Final = 11.0
-"""Time after which a lift is cut off [s]: nine of ten end earlier."""
+LONGEST: Final = 12.0
+"""Time after which a lift is cut off [s]: four of five end earlier."""
 
 WANDERING: Final = "wandering"
 """Name of the behaviour :class:`.Wandering`, which is in no registry."""
@@ -63,7 +64,7 @@ class Pool(NamedTuple):
     """(n,) weight of each lift in the loss."""
 
 
-def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
+def draw_pool(count: int, wide: float, unsettled: int = 0, first_seed: int = FIRST_SEED) -> Pool:
     """Return lifts to learn from.
 
     Parameters
@@ -72,6 +73,8 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
         Number of lifts.
     wide
         Share of the lifts whose people have wide habits, bodies and sensors.
+    unsettled
+        Lifts with an unsettled hand for every five others; see :func:`.curriculum`.
     first_seed
         Seed of the first lift.
 
@@ -82,8 +85,9 @@ def draw_pool(count: int, wide: float, first_seed: int = FIRST_SEED) -> Pool:
     """
     seeds = learning_seeds(count, first_seed)
     common = count - round(wide * count)
-    drawn = [carried_out(scenario(seed, CURRICULUM, Timing()), seed) for seed in seeds[:common]]
-    drawn += [carried_out(_wide(seed), seed) for seed in seeds[common:]]
+    ways = curriculum(unsettled)
+    drawn = [carried_out(scenario(seed, ways, Timing()), seed) for seed in seeds[:common]]
+    drawn += [carried_out(_wide(seed, ways), seed) for seed in seeds[common:]]
     lifts = stack([cut(lift) for lift in drawn])
     return Pool(lifts, common, _weights(lifts, common))
 
@@ -112,13 +116,13 @@ def straight_line(last: jax.Array, view: jax.Array) -> tuple[jax.Array, jax.Arra
     return height, height + STEPS_AHEAD * rise - view[RobotObservation.HAND_COMMAND]
 
 
-def _wide(seed: int) -> Scenario:
+def _wide(seed: int, ways: Sequence[str]) -> Scenario:
     """Return a lift with a widely drawn person and latency, in some a wanderer."""
     rng = np.random.default_rng(derive_seed(seed, "wide"))
     off = round(LATENCY_OFF / FRAME)
     latency = round(LATENCY / FRAME) + int(rng.integers(-off, off + 1))
     timing = Timing(latency=latency * FRAME, control_period=CONTROL_PERIOD)
-    known = scenario(seed, BEHAVIOURS, timing)
+    known = scenario(seed, ways, timing)
     person = _wide_person(known.subject, rng)
     if rng.random() >= WANDERERS:
         return dataclasses.replace(known, subject=person)

@@ -2,7 +2,9 @@
 
 The paper leaves some details open. Here an iteration waits until the measurement reflects the
 action (with a measurement one action old the learner credits the wrong action and never converges);
-ties are broken at random; no action inclines the table by more than about 8 cm.
+ties are broken at random; no action inclines the table by more than about 8 cm. From a level start
+this limit, four whole position steps, keeps the inclinations on a lattice of 2 cm. Convergence
+hinges on that: a limit of 9 cm moves differences off the lattice, and no trial converges.
 """
 
 import json

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import GOAL_RANGE, Plan, Subject
-from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate, interpolate_log
 from colift.agents.humans.plan import Segment, assemble, move, still
 from colift.agents.humans.stroke import Motion, replan, stroke
 from numpy.typing import NDArray
@@ -41,8 +41,7 @@ class Roaming:
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, seed)``."""
         rng = np.random.default_rng(seed)
-        slow, fast = (math.log(speed) for speed in self.peak_speed)
-        pace = math.exp(interpolate((slow, fast), rng.random()))
+        pace = interpolate_log(self.peak_speed, rng.random())
         segments: list[Segment] = [still("ready", 0.0, interpolate(REST_BEFORE, rng.random()))]
         state = np.zeros(3)
         fewest, most = self.goals

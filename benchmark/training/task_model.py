@@ -16,6 +16,7 @@ from colift.base.errors import InputError
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.ranges import PRACTISING_PEOPLE
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.demonstrations import Demonstration
 from colift.benchmark.training.scikit import import_sklearn, reproducible_fit
@@ -36,7 +37,7 @@ COMING: Final = 3
 FIRST_STIFFNESS: Final = 1.0
 """Stiffness in every situation before fine-tuning: that of the table."""
 
-TUNING_SEED: Final = 80_000
+TUNING_SEED: Final = PRACTISING_PEOPLE[0]
 """Seed of the first lift of fine-tuning, far from those of the suites and demonstrations."""
 
 TUNING_LIFTS: Final = 200

@@ -9,12 +9,11 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.submissions import touch as submission
+from colift.agents.tasks.touch.alone_law import law_of, ports_of
 from colift.agents.tasks.touch.touch_controller import TouchController, touch_network
 from colift.agents.tasks.touch.touch_law import (
     TouchMemory,
     TouchNetwork,
-    felt_action,
-    inputs_of,
     touch_at_rest,
 )
 from colift.base.errors import InputError
@@ -40,19 +39,22 @@ class TouchLesson:
     ----------
     task
         Name of the task.
+    alone
+        Whether the network is blind to its partner; see :class:`.TouchNetwork`.
     """
 
     package: ModuleType = submission
 
-    def __init__(self, task: str) -> None:
+    def __init__(self, task: str, *, alone: bool = False) -> None:
         made = make_task(task)
         if not isinstance(made, Touch):
             raise InputError(f"the task {task!r} is not stated by rules, so that it has no twin")
-        self.task, self.twin = task, TaskTwin(made)
+        self.task, self.alone, self.twin = task, alone, TaskTwin(made)
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
         """Return a network that hardly departs from level."""
-        return first_network(inputs_of(self.twin.task.senses), settings.units, seed)
+        inputs, outputs = ports_of(self.twin.task.senses, alone=self.alone)
+        return first_network(inputs, settings.units, seed, outputs)
 
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
@@ -88,7 +90,8 @@ class TouchLesson:
 
     def policy(self, network: Any, count: int) -> tuple[Any, TouchMemory]:
         """Return the policy of a network, and its memory at the beginning of n lifts."""
-        return touch_policy(TouchNetwork(self.task, self.twin.task.senses, network), count)
+        learned = TouchNetwork(self.task, self.twin.task.senses, network, self.alone)
+        return touch_policy(learned, count)
 
     def known(self) -> int:
         """Return how many numbers people know about the task."""
@@ -109,7 +112,9 @@ class TouchLesson:
         """Return the arrays of the policy's file of weights."""
         arrays = {name: np.asarray(array) for name, array in network._asdict().items()}
         scales = [(sense.scale, sense.rate) for sense in self.twin.task.senses]
-        return {**arrays, "task": np.array(self.task), "scales": np.array(scales).reshape(-1, 2)}
+        known = {"alone": np.array(True)} if self.alone else {}
+        rows = np.array(scales).reshape(-1, 2)
+        return {**arrays, "task": np.array(self.task), "scales": rows, **known}
 
     def about(self, settings: ApgSettings) -> tuple[str, str]:
         """Return the manifest's ``description`` and ``trained_on``."""
@@ -123,9 +128,10 @@ class TouchLesson:
 
 def touch_policy(learned: TouchNetwork, count: int) -> tuple[Any, TouchMemory]:
     """Return the policy of a network, and its memory at the beginning of n lifts."""
+    law = law_of(learned)
 
     def policy(memory: TouchMemory, view: jax.Array) -> tuple[TouchMemory, jax.Array]:
-        return felt_action(learned, memory, view, JAX)
+        return law(learned, memory, view, JAX)
 
     rest = touch_at_rest(learned)
     return policy, jax.tree.map(lambda zero: jnp.zeros((*np.shape(zero), count)), rest)

@@ -7,13 +7,16 @@ from typing import Final
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import GOAL_RANGE, Plan, Subject
-from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate
+from colift.agents.humans.movement import REST_AFTER, REST_BEFORE, interpolate, interpolate_log
 from colift.agents.humans.plan import Segment, assemble, move, still
 from colift.agents.humans.stroke import replan
 from numpy.typing import NDArray
 
 LONGEST: Final = 10.0
 """Time after which no further movement begins [s]."""
+
+LOWEST: Final = -0.03
+"""Lowest height of the motion [m]: the end of the robot's stroke."""
 
 _FEWEST_FRAMES: Final = 25
 
@@ -48,17 +51,18 @@ class Wandering:
     def plan(self, subject: Subject, seed: int) -> Plan:
         """Return the plan of one episode; pure in ``(self, seed)``."""
         rng = np.random.default_rng(seed)
-        pace = _even_in_log(self.speed, rng)
-        farthest = _even_in_log((5 * self.distance[0], self.distance[1]), rng)
+        pace = interpolate_log(self.speed, rng.random())
+        farthest = interpolate_log((5 * self.distance[0], self.distance[1]), rng.random())
         interrupted = interpolate(self.interrupted, rng.random())
         resting = interpolate(self.resting, rng.random())
         ready = interpolate(REST_BEFORE, rng.random())
         segments: list[Segment] = [still("ready", 0.0, ready)]
         state, time = np.zeros(3), ready
         while time < LONGEST:
-            distance = _even_in_log((self.distance[0], farthest), rng)
+            distance = interpolate_log((self.distance[0], farthest), rng.random())
             up = bool(rng.random() < 0.8) if state[0] < 0.04 else bool(rng.random() < 0.5)
-            goal = float(np.clip(state[0] + (distance if up else -distance), 0.0, GOAL_RANGE[1]))
+            goal = state[0] + (distance if up else -distance)
+            goal = float(np.clip(goal, LOWEST, GOAL_RANGE[1]))
             motion = _motion(state, goal, pace * math.exp(0.4 * rng.standard_normal()))
             if rng.random() < interrupted:
                 cut = max(int(motion.shape[1] * interpolate((0.2, 0.95), rng.random())), 1)
@@ -66,7 +70,7 @@ class Wandering:
             segments.append(move("go", motion[0]))
             state, time = motion[:, -1], time + motion.shape[1] * FRAME
             if not np.abs(state[1:]).max() > 1e-3 and rng.random() < resting:
-                pause = _even_in_log(self.rest, rng)
+                pause = interpolate_log(self.rest, rng.random())
                 segments.append(still("hold", float(state[0]), pause))
                 time += pause
         segments.append(move("lower", _motion(state, 0.0, pace)[0]))
@@ -77,24 +81,19 @@ class Wandering:
     def _drifting(self, plan: Plan, rng: np.random.Generator) -> Plan:
         """Return the plan with a smooth deviation that is zero at both ends."""
         count = len(plan.target)
-        time = _even_in_log(self.drift_time, rng)
-        size = min(_even_in_log(self.drift, rng) * time, self.farthest_drift)
+        time = interpolate_log(self.drift_time, rng.random())
+        size = min(interpolate_log(self.drift, rng.random()) * time, self.farthest_drift)
         width = time / FRAME
         bell = np.exp(-0.5 * (np.arange(-3 * int(width), 3 * int(width) + 1) / width) ** 2)
         white = rng.standard_normal(count + len(bell) - 1)
         smooth = np.convolve(white, bell / math.sqrt(float((bell**2).sum())), mode="valid")
         fade = np.minimum(np.arange(count), np.arange(count)[::-1]) / 50
         target = plan.target + size * smooth * np.minimum(fade, 1.0) ** 2
-        target = np.clip(target, -0.02, GOAL_RANGE[1])
+        target = np.clip(target, LOWEST, GOAL_RANGE[1])
         target.flags.writeable = False
         return Plan(
             target=target, strokes=plan.strokes, goal=float(target.max()), events=plan.events
         )
-
-
-def _even_in_log(limits: tuple[float, float], rng: np.random.Generator) -> float:
-    low, high = (math.log(limit) for limit in limits)
-    return math.exp(interpolate((low, high), rng.random()))
 
 
 def _motion(state: NDArray[np.float64], goal: float, speed: float) -> NDArray[np.float64]:

@@ -71,7 +71,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     drawn = draw_lifts(lifts)
     body, far_body = drawn.body, partner_body(len(lifts))
     person = HUMANS["human"].person
-    delay = round(person.visual_delay / FRAME)
+    delays = round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
     partners = [SecondPerson(subject=person) for _ in lifts]
     for partner in partners:
         partner.reset(policy_seed())
@@ -93,7 +93,7 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     pair, correction = pair_plant.pair_at_rest(len(lifts)), jnp.zeros(len(lifts))
     squares, far = np.zeros(len(lifts)), np.zeros((size, len(lifts)))
     for number in range(drawn.longest()):
-        views = _partner_views(pair, delay, size, number)
+        views = _partner_views(pair, delays, size, number)
         for index in np.flatnonzero(number < steps):
             far[:, index] = within_range(partners[index].act(views[index]).tolist())
         now = lifting.due(drawn, jnp.asarray(number))
@@ -102,14 +102,21 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
     return lift_rmse_mm(squares, steps * size)
 
 
-def _partner_views(pair: pair_plant.PairPlant, delay: int, size: int, step: int) -> Array:
-    """Return the observations of the second persons (n, HumanObservation.size(f))."""
+def _partner_views(
+    pair: pair_plant.PairPlant, delays: tuple[int, int], size: int, step: int
+) -> Array:
+    """Return the observations of the second persons (n, HumanObservation.size(f)).
+
+    ``delays`` are those of sight and of touch, in frames.
+    """
+    seen, felt = delays
+    forces = np.asarray(pair.far_forces, np.float64)[felt : felt + HISTORY]
     heights = np.asarray(pair.heights, np.float64)
     far = heights + np.asarray(pair.differences, np.float64)
     views = np.zeros((heights.shape[1], HumanObservation.size(size)))
     views[:, HumanObservation.OWN_HEIGHT] = far[:HISTORY][::-1].T
-    views[:, HumanObservation.OTHER_END] = heights[delay : delay + HISTORY][::-1].T
-    views[:, HumanObservation.HAND_FORCE] = WEIGHT_SHARE
-    views[:, HumanObservation.TARGET] = heights[delay][:, np.newaxis]
+    views[:, HumanObservation.OTHER_END] = heights[seen : seen + HISTORY][::-1].T
+    views[:, HumanObservation.HAND_FORCE] = WEIGHT_SHARE + forces[::-1].T
+    views[:, HumanObservation.TARGET] = heights[seen][:, np.newaxis]
     views[:, HumanObservation.TIME] = step * size * FRAME
     return views

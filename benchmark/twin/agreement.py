@@ -118,6 +118,10 @@ class Rules(NamedTuple):
         )
         return self.task.missed(LIFTS, due, ends), self.task.lost(LIFTS, ends)
 
+    def left(self, past: Past) -> Any:
+        """Return how many frames of the plan are unfinished."""
+        return self.task.unfinished(LIFTS, self.drawn, past)
+
 
 def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent]) -> float:
     """Return the largest difference of a rule's results, as numbers and as arrays, in a lift.
@@ -153,6 +157,7 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
         human, size = lift.human(), lift.frames_per_step
         rules = Rules(task, drawn_arrays(lift), size)
         decide, drive, judge = jax.jit(rules.decide), jax.jit(rules.drive), jax.jit(rules.judge)
+        left = jax.jit(rules.left)
         memory = rules.begin()
         while not lift.done:
             memory, intention, sensed = decide(memory, past_of(lift))
@@ -171,4 +176,5 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
             missed, lost = judge(jnp.asarray(last), Ends(*(jnp.asarray([x]) for x in ends)))
             compare(task.missed(SCALARS, frame_of(lift.due, last), ends), missed)
             compare(task.lost(SCALARS, ends), lost)
+            compare(task.unfinished(SCALARS, lift.drawn, lift), left(past_of(lift)))
     return max(worst)

@@ -63,6 +63,8 @@ class ArmVariation(NamedTuple):
     """(n,) factor of the sag by weight and load."""
     lag: jax.Array
     """(n,) factor of the joints' gain: below 1, the arms are slower."""
+    load: jax.Array | float = 1.0
+    """(n,) factor of the table's weight at rest, which an offset compensates."""
 
 
 class Arm(NamedTuple):
@@ -80,10 +82,10 @@ class Arm(NamedTuple):
     """(n,) filtered force that the hands bear [N]."""
 
 
-def arms_at_rest(count: int) -> Arm:
-    """Return arms at rest under their share of the table's weight."""
+def arms_at_rest(count: int, load: jax.Array | float = 1.0) -> Arm:
+    """Return arms at rest under their share of the weight of tables, ``load`` times the usual."""
     zero = jnp.zeros(count)
-    weight = jnp.full(count, WEIGHT_SHARE)
+    weight = jnp.full(count, WEIGHT_SHARE) * load
     return Arm(hand=zero, mean=zero, variance=zero, target=zero, load=weight)
 
 
@@ -116,7 +118,8 @@ def prepared(
     sag = _sag(place, load)
     # At rest, the offset compensates for the sag under the table's weight.
     rest_place = jnp.full_like(command, -_MIDDLE / _HALF)
-    sag = sag - _sag(rest_place, jnp.full_like(load, WEIGHT_SHARE))
+    weight = WEIGHT_SHARE * (1.0 if variation is None else variation.load)
+    sag = sag - _sag(rest_place, jnp.full_like(load, 1.0) * weight)
     if variation is not None:
         sag = sag * variation.sag
     return load, _nearest_row(jnp.clip(command - sag, *STROKE))
@@ -142,11 +145,12 @@ def followed(
     step
         Its duration [s].
     """
-    gain = -math.expm1(-step / _LAG)
-    ahead = (step / gain - _LAG) / FRAME
-    gains = jnp.full_like(arm.load, gain)
+    gains = jnp.full_like(arm.load, -math.expm1(-step / _LAG))
+    lag: jax.Array | float = _LAG
     if variation is not None:
         gains = gains * variation.lag
+        lag = -step / jnp.log1p(-gains)
+    ahead = (step / gains - lag) / FRAME
     on_the_way = _nearest_row(arm.target + (target - arm.target) * (begin + ahead))
     off = on_the_way - arm.mean
     mean = arm.mean + gains * off

@@ -38,10 +38,16 @@ class Body(NamedTuple):
     """(n,) visual delay in frames."""
     felt: jax.Array
     """(n,) haptic delay in frames."""
+    load: jax.Array
+    """(n,) mass of their table relative to the benchmark's."""
 
 
-def bodies(people: Sequence[BodyParameters], step: float = FRAME) -> Body:
+def bodies(
+    people: Sequence[BodyParameters], step: float = FRAME, loads: Sequence[float] = ()
+) -> Body:
     """Return the bodies of people as arrays, for physics steps of ``step`` [s].
+
+    ``loads`` are the masses of their tables relative to the benchmark's; by default, all are 1.
 
     Raises
     ------
@@ -71,6 +77,7 @@ def bodies(people: Sequence[BodyParameters], step: float = FRAME) -> Body:
         haptic_gain=column([share * TABLE_LENGTH**2 / GRIP_STIFFNESS for share in felt]),
         seen=jnp.asarray(visual),
         felt=jnp.asarray(haptic),
+        load=column(loads or [1.0] * len(people)),
     )
 
 

@@ -8,8 +8,8 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import Embodied
-from colift.agents.humans.hand import HandMemory, NoiseStream, move_hand
-from colift.agents.rules import SCALARS
+from colift.agents.humans.following import FOLLOWS_PLAN
+from colift.agents.humans.hand import performed
 from colift.agents.senses import MOCAP_NOISE
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import Scenario
@@ -68,6 +68,11 @@ def check_modelled(scenario: Scenario) -> None:
     if scenario.partner not in MODELLED:
         known = " and ".join(map(repr, MODELLED))
         raise InputError(f"the twin models the partners {known}, not {scenario.partner!r}")
+    if scenario.conditions is not None or scenario.rules is not FOLLOWS_PLAN:
+        raise InputError(
+            f"{scenario.name} has conditions, or people who do not just follow their plan: it "
+            "needs the twin with conditions"
+        )
     check_people(scenario)
 
 
@@ -79,14 +84,25 @@ def check_people(scenario: Scenario) -> None:
     InputError
         If not.
     """
-    if isinstance(scenario.human, Embodied):
-        raise InputError(
-            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
-        )
+    check_scripted(scenario)
     if scenario.latency_frames >= DEPTH:
         raise InputError(
             f"the twin keeps {DEPTH - 1} frames of the past, a latency of {scenario.latency} s "
             "needs more"
+        )
+
+
+def check_scripted(scenario: Scenario) -> None:
+    """Check that people are scripted.
+
+    Raises
+    ------
+    InputError
+        If not.
+    """
+    if isinstance(scenario.human, Embodied):
+        raise InputError(
+            f"the twin models scripted people only; {scenario.behaviour!r} brings its own"
         )
 
 
@@ -124,12 +140,10 @@ def carried_out(scenario: Scenario, seed: int) -> DrawnLift:
     rng = np.random.default_rng(derive_seed(seed, f"sensor/{name}"))
     noise = rng.normal(0.0, MOCAP_NOISE, (2, HISTORY_FRAMES + len(target)))
     sampled = size * np.arange(steps) + HISTORY_FRAMES - 1 - scenario.latency_frames
-    stream = NoiseStream(scenario.subject, derive_seed(seed, f"human/{name}"))
-    hand, moved = HandMemory(0.0, 0.0, 0.0), stream.between(0, len(target))
-    _, references = move_hand(SCALARS, hand, 0.0, target.tolist(), moved)
+    hand = performed(scenario.subject, target, derive_seed(seed, f"human/{name}"))
     return DrawnLift(
         scenario,
-        np.array(references).reshape(steps, size),
+        hand.reshape(steps, size),
         target.reshape(steps, size),
         noise[:, sampled].T,
     )

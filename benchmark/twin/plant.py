@@ -10,7 +10,7 @@ order in s,
 The step is the engine's: semi-implicit, 10 ms, references and commands taken at its beginning.
 """
 
-from typing import Final, NamedTuple
+from typing import NamedTuple
 
 import jax
 import jax.numpy as jnp
@@ -26,10 +26,6 @@ from colift.benchmark.world.table import (
     TABLE_MASS,
     WEIGHT_SHARE,
 )
-
-_IMPLICIT: Final = 1 + FRAME * GRIP_DAMPING / TABLE_INERTIA / 2
-_PITCH_GAIN: Final = GRIP_STIFFNESS / _IMPLICIT
-_RATE_GAIN: Final = GRIP_DAMPING / _IMPLICIT
 
 
 class Moving(NamedTuple):
@@ -76,13 +72,11 @@ class Plant(NamedTuple):
         return self.moving.arm.hand
 
 
-def plant_at_rest(count: int) -> Plant:
-    """Return lifts at rest."""
+def plant_at_rest(count: int, load: jax.Array | float = 1.0) -> Plant:
+    """Return lifts at rest, with tables of ``load`` times the benchmark's mass."""
     zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
-    weight = jnp.full(count, WEIGHT_SHARE)
-    moving = Moving(
-        zero, zero, zero, zero, zero, zero, weight, zero, zero, arms_at_rest(count), zero
-    )
+    arms = arms_at_rest(count, load)
+    moving = Moving(zero, zero, zero, zero, zero, zero, arms.load, zero, zero, arms, zero)
     return Plant(moving, past, past, past)
 
 
@@ -110,6 +104,7 @@ def advance_plant(
         Variation of the arms; None is the benchmark's arms.
     """
     count = len(references)
+    implicit = 1 + FRAME * GRIP_DAMPING / (TABLE_INERTIA * body.load) / 2
     shifts = wanted_shift(
         body,
         delayed(plant.differences, body.seen, count),
@@ -121,7 +116,7 @@ def advance_plant(
     ) -> tuple[Moving, tuple[jax.Array, jax.Array, jax.Array]]:
         wanted, shift, command = due
         reflex = activated(now.reflex, shift)
-        grip = _PITCH_GAIN * now.pitch + _RATE_GAIN * now.pitch_rate
+        grip = (GRIP_STIFFNESS * now.pitch + GRIP_DAMPING * now.pitch_rate) / implicit
         arm = drive(now.arm, command, now.far_force, variation)
         after, force = after_physics_step(now, wanted + reflex, body, arm, grip)
         after = after._replace(reflex=reflex)
@@ -167,16 +162,16 @@ def after_physics_step(
     step
         Duration [s].
     """
-    mass = body.mass
+    mass, table = body.mass, TABLE_MASS * body.load
     arms = body.stiffness * (now.reference - now.height)
     arms = arms + body.damping * ((reference - now.reference) / step - now.velocity)
     far_velocity = (arm.hand - now.far_height) / step
 
     square = ((now.far_height - now.height) / TABLE_LENGTH) ** 2
-    tilted = TABLE_MASS / 12 * (1 + square) + (2 * mass + TABLE_MASS / 4) * square
-    carried = (TABLE_MASS / 4 - tilted) * (far_velocity - now.far_velocity) / step
+    tilted = table / 12 * (1 + square) + (2 * mass + table / 4) * square
+    carried = (table / 4 - tilted) * (far_velocity - now.far_velocity) / step
     driving = arms + grip / TABLE_LENGTH * (1 + square / 2) - carried + pressed
-    acceleration = driving / (mass + TABLE_MASS / 4 + tilted)
+    acceleration = driving / (mass + table / 4 + tilted)
 
     velocity = now.velocity + step * acceleration
     height = now.height + step * velocity
@@ -184,7 +179,7 @@ def after_physics_step(
     pitch_rate = (far_velocity - velocity) / TABLE_LENGTH * (1 + sine**2 / 2)
     centre = acceleration + TABLE_LENGTH / 2 / step * (pitch_rate - now.pitch_rate)
     force = arms - mass * acceleration
-    far_force = TABLE_MASS * (GRAVITY + centre) - force - WEIGHT_SHARE
+    far_force = table * (GRAVITY + centre) - force - WEIGHT_SHARE * body.load
     after = Moving(
         height=height,
         velocity=velocity,

@@ -11,7 +11,7 @@ from colift.agents.humans.hand import HandMemory, HandNoise, carry_out
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.seat import REFERENCE_RANGE, limited_command
 from colift.benchmark.episode.sensing import sight, touch
-from colift.benchmark.tasks.touch import Ends, Touch
+from colift.benchmark.tasks.touch import Ends, Touch, gathered
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.ball_plant import BallPlant, advance_ball_plant, ball_plant_at_rest
 from colift.benchmark.twin.body import DEPTH, Body, pushed
@@ -42,6 +42,16 @@ class Noise(NamedTuple):
     gain: jax.Array
     tremor: jax.Array
     errors: jax.Array
+
+
+class Missed(NamedTuple):
+    """The contributions of a step to the error of n lifts."""
+
+    squares: tuple[jax.Array, ...]
+    """Squares [m2] for each number of :attr:`.Touch.stays`: their sum (n,), or, where a place has
+    to be held, those of all frames (f, n)."""
+    unfinished: jax.Array
+    """(n,) the frames of the plan that are not done, in the last step of a lift; 0 before."""
 
 
 @dataclass(frozen=True)
@@ -132,8 +142,8 @@ class TaskTwin:
             step=state.step + 1,
         ), ends
 
-    def missed(self, state: TouchState, lifts: TouchLifts, ends: Ends) -> tuple[jax.Array, ...]:
-        """Return the contributions (n,) of a step to the error, from the state before it [m2].
+    def missed(self, state: TouchState, after: TouchState, lifts: TouchLifts, ends: Ends) -> Missed:
+        """Return the contributions of a step to the error, from the states before and after it.
 
         After a lift is lost, each frame of the steps that follow counts with
         :data:`.FAILED_FRAME_MM`, as in the engine, so that the loss is finite. Its gradient comes
@@ -147,24 +157,26 @@ class TaskTwin:
         )
         cut = size * (FAILED_FRAME_MM / 1000) ** 2
         lasts = state.step < lifts.steps
-        return tuple(
-            squares.min(axis=0)
-            if least
-            else jnp.where(state.lost > 0, cut, squares.sum(axis=0)) * lasts
-            for squares, least in zip(
-                self.task.missed(LIFTS, due, ends), self.task.least, strict=True
-            )
+        squares = tuple(
+            each if stay else jnp.where(state.lost > 0, cut, each.sum(axis=0)) * lasts
+            for each, stay in zip(self.task.missed(LIFTS, due, ends), self.task.stays, strict=True)
         )
+        left = self.task.unfinished(LIFTS, lifts.drawn, TouchView(after, lifts))
+        return Missed(squares, jnp.where(after.step == lifts.steps, left, 0.0))
 
-    def score_mm(self, lifts: TouchLifts, missed: tuple[jax.Array, ...]) -> jax.Array:
-        """Return the scores (n,) [mm] from the contributions of all steps (s, n)."""
-        gathered = [
-            each.min(axis=0) if least else each.sum(axis=0)
-            for each, least in zip(missed, self.task.least, strict=True)
+    def score_mm(self, lifts: TouchLifts, missed: Missed) -> jax.Array:
+        """Return the scores (n,) [mm] from the contributions of all steps, stacked.
+
+        The rule is that of :meth:`.Touch.rmse_mm`.
+        """
+        squares = [
+            gathered(each.reshape(-1, lifts.size), stay)
+            for each, stay in zip(missed.squares, self.task.stays, strict=True)
         ]
-        frames = lifts.steps * lifts.frames
-        error = self.task.error(LIFTS, lifts.drawn.facts, gathered, frames)
-        return 1000 * jnp.sqrt(error + 1e-12)
+        frames, missing = lifts.steps * lifts.frames, missed.unfinished.sum(axis=0)
+        error = frames * self.task.error(LIFTS, lifts.drawn.facts, squares, frames)
+        cut = missing * (FAILED_FRAME_MM / 1000) ** 2
+        return 1000 * jnp.sqrt((error + cut) / (frames + missing) + 1e-12)
 
     def rmse_mm(
         self,
@@ -200,7 +212,7 @@ class TaskTwin:
                 minding, added = (mind, after), added_in_step(before, after, lifts.frames)
             memory, action = policy(memory, self.observe(state, lifts, noise))
             later, ends = self.step(state, lifts, noise, action, variation, added)
-            return (later, memory, minding), self.missed(state, lifts, ends)
+            return (later, memory, minding), self.missed(state, later, lifts, ends)
 
         minding = None if person is None else (person.memory, jnp.zeros((2, lifts.size)))
         begun = (self.at_rest(lifts.size), memory, minding)

@@ -82,7 +82,7 @@ def play_suite(
     return Scores(
         name=suite.name,
         digest=suite.digest,
-        strata=human_human.strata,
+        units=human_human.units,
         errors={name: there[name] if name in there else _errors(played[name]) for name in policies},
         human_human=np.array(human_human.rmse_mm),
         seed=derive_seed(0, "validity suite"),
@@ -100,18 +100,18 @@ def play_source(
 ) -> Scores:
     """Return the scores of policies on a source; arguments as for :func:`play_suite`.
 
-    All lifts of a source are one stratum: the simulated bodies, which take its lifts in turn, have
-    no influence on the choice of lifts.
+    The people are those that the source names; without names, each recording stands alone. The
+    simulated bodies, which take its lifts in turn, have no influence on this.
     """
     suite = source.suite
-    human_human = human_human_run(suite, executor=executor, progress=progress)
+    human_human = ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
     played = _play(policies, suite, executor, progress)
     return Scores(
         name=source.name,
         digest=suite.digest,
-        strata=(source.name,) * suite.size,
+        units=human_human.units,
         errors={name: _errors(run) for name, run in played.items()},
-        human_human=_errors(human_human),
+        human_human=np.array(human_human.rmse_mm),
         seed=derive_seed(0, "validity source"),
         failed=_failed(played),
     )

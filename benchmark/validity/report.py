@@ -167,6 +167,7 @@ def _suite(each: SuiteOnSource) -> dict[str, Any]:
         "spearman": asdict(found.spearman),
         "kendall": asdict(found.kendall),
         "kendall_best_half": asdict(found.kendall_best_half),
+        "better_than_two_people": None if found.better is None else asdict(found.better),
         "ratio": {
             "factor": asdict(found.factor),
             "bias": asdict(found.bias),

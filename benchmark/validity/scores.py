@@ -1,19 +1,28 @@
 """Scores of policies and of two people on the same lifts, and their resamples."""
 
 import functools
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
-from colift.benchmark.statistics import FloatArray
-from colift.benchmark.statistics.bootstrap import expanded_percentile
-from colift.benchmark.statistics.samples import Members, expanded, members_of, resample
-from numpy.typing import NDArray
+from colift.base.errors import InputError
+from colift.benchmark.statistics import (
+    Estimate,
+    FloatArray,
+    Units,
+    geometric_ratio,
+    log_ratios,
+    mean_of,
+)
+from colift.benchmark.statistics.bootstrap import (
+    expanded_percentile,
+    expansion,
+    resampled_means,
+    resampled_weights,
+)
 
 RESAMPLES: Final = 2000
-
-CONFIDENCE: Final = 0.95
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,26 +34,38 @@ class Quantity:
     high: float
 
     @classmethod
-    def of(cls, value: float, resampled: FloatArray, *members: Members) -> "Quantity":
+    def of(cls, estimate: Estimate) -> "Quantity":
+        """Return an estimate with its interval; scores have one, since they have two people."""
+        low, high = estimate.ends
+        return cls(value=estimate.mean, low=low, high=high)
+
+    @classmethod
+    def resampled(cls, value: float, resampled: FloatArray, *units: Units) -> "Quantity":
         """Return a number with the expanded percentile interval of its resamples, shape (n,).
 
-        If several samples were resampled independently, each with its members, the largest of their
+        If several samples were resampled independently, each with its units, the largest of their
         expansions is used.
         """
-        widest = max(members, key=lambda each: expanded(1.0, each))
-        low, high = expanded_percentile(resampled, widest, CONFIDENCE)
+        found = expanded_percentile(resampled, max(units, key=expansion))
+        low, high = found or (value, value)
         return cls(value=float(value), low=low, high=high)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Scores:
-    """RMSE of policies and of two people on the same lifts, those of a suite or of a source."""
+    """RMSE of policies and of two people on the same lifts, those of a suite or of a source.
+
+    Raises
+    ------
+    InputError
+        If all lifts are of one person.
+    """
 
     name: str
     digest: str
     """Digest of the lifts."""
-    strata: tuple[Hashable, ...] = field(repr=False)
-    """Label of each lift: lifts are resampled within their label."""
+    units: Units = field(repr=False)
+    """The people of these lifts; they are resampled with all of their lifts."""
     errors: Mapping[str, FloatArray] = field(repr=False)
     """RMSE of each policy in each lift [mm], shape (n,)."""
     human_human: FloatArray = field(repr=False)
@@ -57,6 +78,10 @@ class Scores:
     """Failed lifts of the policies that were played, with the worst RMSE; those without one are
     left out."""
 
+    def __post_init__(self) -> None:
+        if self.units.freedom == 0:
+            raise InputError(f"all lifts of {self.name} are of one person; intervals need two")
+
     @property
     def policies(self) -> tuple[str, ...]:
         """The names of the policies."""
@@ -68,36 +93,31 @@ class Scores:
         return len(self.human_human)
 
     @functools.cached_property
-    def members(self) -> Members:
-        """The indices of the lifts of each label."""
-        return members_of(self.strata, self.lifts)
-
-    @functools.cached_property
     def means(self) -> FloatArray:
         """Mean RMSE of each policy [mm], shape (k,): the score by which boards rank."""
         return np.array([errors.mean() for errors in self.errors.values()])
 
     @functools.cached_property
     def ratios(self) -> FloatArray:
-        """Mean RMSE of each policy over that of the human-human baseline, shape (k,)."""
-        found: FloatArray = self.means / self.human_human.mean()
+        """Ratio of each policy to the human-human baseline, geometric mean, shape (k,)."""
+        found: FloatArray = np.exp(self._logs.mean(axis=1))
         return found
 
     @functools.cached_property
     def resampled(self) -> FloatArray:
         """Mean RMSE of each policy in each resample [mm], shape (resamples, k)."""
-        return np.stack([errors[self._drawn].mean(axis=1) for errors in self.errors.values()], 1)
+        return resampled_means(np.array(list(self.errors.values())), self.units, self._weights).T
 
     @functools.cached_property
     def resampled_ratios(self) -> FloatArray:
         """The :attr:`ratios` in each resample, shape (resamples, k)."""
-        found: FloatArray = self.resampled / self._resampled_human_human[:, None]
+        found: FloatArray = np.exp(resampled_means(self._logs, self.units, self._weights).T)
         return found
 
     @functools.cached_property
     def human_human_mm(self) -> Quantity:
         """Mean RMSE of the human-human baseline [mm]."""
-        return Quantity.of(self.human_human.mean(), self._resampled_human_human, self.members)
+        return Quantity.of(mean_of(self.human_human, self.units))
 
     def mean(self, policy: str) -> float:
         """Return the mean RMSE of a policy [mm]."""
@@ -105,13 +125,11 @@ class Scores:
 
     def mean_mm(self, policy: str) -> Quantity:
         """Return the mean RMSE of a policy with its interval [mm]."""
-        place = self.policies.index(policy)
-        return Quantity.of(self.means[place], self.resampled[:, place], self.members)
+        return Quantity.of(mean_of(self.errors[policy], self.units))
 
     def vs_human(self, policy: str) -> Quantity:
         """Return the ratio of a policy to the human-human baseline."""
-        place = self.policies.index(policy)
-        return Quantity.of(self.ratios[place], self.resampled_ratios[:, place], self.members)
+        return Quantity.of(geometric_ratio(self.errors[policy], self.human_human, self.units))
 
     def order(self) -> tuple[str, ...]:
         """Return the policies in the order of their mean RMSE, the best first."""
@@ -122,10 +140,11 @@ class Scores:
         return self.order().index(policy) + 1
 
     @functools.cached_property
-    def _resampled_human_human(self) -> FloatArray:
-        return np.asarray(self.human_human[self._drawn].mean(axis=1))
+    def _logs(self) -> FloatArray:
+        rows = self.errors.values()
+        return np.array([log_ratios(errors, self.human_human) for errors in rows])
 
     @functools.cached_property
-    def _drawn(self) -> NDArray[np.intp]:
-        # All policies take the same resampled lifts: the difficulty of a lift cancels.
-        return resample(self.members, RESAMPLES, self.seed)
+    def _weights(self) -> FloatArray:
+        # All policies take the same resampled people: the difficulty of a lift cancels.
+        return resampled_weights(self.units, RESAMPLES, self.seed)

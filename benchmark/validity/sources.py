@@ -15,6 +15,9 @@ from colift.benchmark.suites.suite import Suite, plain_name
 FEWEST_LIFTS: Final = 2
 """Fewest lifts of a source: a single lift has no spread, and therefore no interval."""
 
+FEWEST_PEOPLE: Final = 2
+"""Fewest people of a source, if its file names them: intervals are between people."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
@@ -38,7 +41,8 @@ def source_of(path: Path) -> Source:
     Raises
     ------
     InputError
-        If it cannot be used, or has fewer than :data:`FEWEST_LIFTS` lifts.
+        If it cannot be used, or has fewer than :data:`FEWEST_LIFTS` lifts or
+        :data:`FEWEST_PEOPLE` people.
     """
     lifts = real_lifts(path)
     suite = lifts.suite
@@ -46,6 +50,12 @@ def source_of(path: Path) -> Source:
         raise InputError(
             f"{path} has {suite.size} lift; intervals need {FEWEST_LIFTS} or more, and say little "
             "below ten"
+        )
+    people = {scenario.person for scenario in suite.scenarios}
+    if len(people) < FEWEST_PEOPLE:
+        raise InputError(
+            f"{path}: all lifts are of {next(iter(people))!r:.80}; intervals are between people, "
+            f"and need {FEWEST_PEOPLE} or more"
         )
     kind = "live" if path.is_dir() else "recordings"
     return Source(name=plain_name(path.stem), kind=kind, suite=suite, left_out=lifts.left_out)

@@ -9,7 +9,7 @@ from colift.benchmark.statistics import holm_correction, paired_difference, perm
 from colift.benchmark.validity.scores import Quantity, Scores
 
 LEVEL: Final = 0.05
-"""Largest corrected p value of a significant difference, as for ranks."""
+"""Largest corrected p value of a significant difference."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,12 +40,14 @@ class Rival:
 def rivals(scores: Scores, policy: str) -> tuple[Rival, ...]:
     """Return the other policies compared with one, the best first.
 
-    The test is that of the ranks of a board: paired sign flips, corrected for all rivals, so that
-    the search for the best of them is accounted for.
+    The test is by paired sign flips of people, corrected for all rivals, so that the search for the
+    best of them is accounted for.
     """
     others = [name for name in scores.order() if name != policy]
     ps = holm_correction(
-        permutation_ps_against(scores.errors[policy], [scores.errors[name] for name in others])
+        permutation_ps_against(
+            scores.errors[policy], [scores.errors[name] for name in others], scores.units
+        )
     )
     return tuple(
         Rival(
@@ -75,5 +77,4 @@ def _better_share(scores: Scores, a: str, b: str) -> float:
 
 
 def _difference(scores: Scores, a: str, b: str) -> Quantity:
-    found = paired_difference(scores.errors[a], scores.errors[b], scores.strata, seed=scores.seed)
-    return Quantity(value=found.mean, low=found.ci95[0], high=found.ci95[1])
+    return Quantity.of(paired_difference(scores.errors[a], scores.errors[b], scores.units))

@@ -139,17 +139,23 @@ def checked_with(suite: Suite) -> Suite:
 def check_part(suite: Suite) -> Suite:
     """Return a suite of at most :data:`FEW` lifts unchanged, of others two lifts per behaviour.
 
-    Each behaviour has another person, as far as there are enough of them.
+    Each behaviour has other people, as far as there are enough of them: two if the suite has a
+    single seed, else one.
     """
     if suite.size <= FEW:
         return suite
     behaviours: dict[str, list[Scenario]] = {}
     for scenario in suite.scenarios:
         behaviours.setdefault(scenario.behaviour, []).append(scenario)
+    people = 2 if len(suite.seeds) == 1 else 1
     return dataclasses.replace(
         suite,
         name=f"{suite.name}, a part",
-        scenarios=tuple(some[i % len(some)] for i, some in enumerate(behaviours.values())),
+        scenarios=tuple(
+            some[(people * i + k) % len(some)]
+            for i, some in enumerate(behaviours.values())
+            for k in range(people)
+        ),
         seeds=suite.seeds[:2],
     )
 

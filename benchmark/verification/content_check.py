@@ -44,7 +44,9 @@ def suite_label(suite: Suite) -> str:
         if _registered(name) == digest:
             return name
     first = suite.scenarios[0]
-    label = f"a suite of its own: {suite.size} lifts, latency {first.latency:g} s"
+    known = first.conditions is None
+    timing = f"latency {first.latency:g} s" if known else f"conditions {first.conditions}"
+    label = f"a suite of its own: {suite.size} lifts, {timing}"
     if first.control_period != CONTROL_PERIOD:
         label += f", control period {first.control_period:g} s"
     return label

@@ -22,10 +22,9 @@ from colift.benchmark.world.table import (
     HANDS,
     PITCH,
     SLIDE,
-    TABLE_INERTIA,
+    TABLE,
     TABLE_LENGTH,
-    TABLE_MASS,
-    WEIGHT_SHARE,
+    Table,
     table_urdf,
 )
 
@@ -43,6 +42,8 @@ class BulletWorld:
         The person at the near end.
     far_end
         Holder of the other end: :class:`.NaoFarEnd`, :class:`.HumanFarEnd`.
+    table
+        The table.
     physics
         Time step and solver.
     touch
@@ -57,6 +58,7 @@ class BulletWorld:
         self,
         human: BodyParameters,
         far_end: FarEnd,
+        table: Table = TABLE,
         *,
         physics: Physics = PHYSICS,
         touch: bool = False,
@@ -67,15 +69,16 @@ class BulletWorld:
         self._release = weakref.finalize(self, disconnect, self.client)
         self._release.atexit = False
         self._touch, self._ball = touch or ball is not None, ball
+        self._table = table
         self._carried = 0.0 if ball is None else ball.mass * GRAVITY / 2
         self._far_carried = self._carried if far_end.carries else 0.0
         self._step = physics.step
         self._begins = [i / physics.steps_per_frame for i in range(physics.steps_per_frame)]
-        self._body = HumanBody(human, physics.step)
+        self._body = HumanBody(human, physics.step, table.weight_share)
         self._mass = human.mass
         self._tree = load_urdf_text(
             self.client,
-            table_urdf(human.mass, far_end.mass),
+            table_urdf(human.mass, far_end.mass, table),
             (FAR_GRIP[0] + TABLE_LENGTH, 0.0, FAR_GRIP[2]),
         )
         for joint in (SLIDE, HANDS, PITCH):
@@ -83,10 +86,15 @@ class BulletWorld:
                 self._tree, joint, pybullet.VELOCITY_CONTROL, force=0, physicsClientId=self.client
             )
         self.hands = far_end.hold(
-            BulletEngine(physics=physics, client=self.client, table=self._tree)
+            BulletEngine(
+                physics=physics,
+                weight_share=table.weight_share,
+                client=self.client,
+                table=self._tree,
+            )
         )
         far = (FAR_GRIP_STIFFNESS, FAR_GRIP_DAMPING) if self._touch else (0.0, 0.0)
-        inertia = TABLE_INERTIA + far_end.mass * TABLE_LENGTH**2
+        inertia = table.inertia + far_end.mass * TABLE_LENGTH**2
         # The dampers act at mid-step.
         implicit = 1 + self._step * (GRIP_DAMPING + far[1]) / inertia / 2
         self._grip = GRIP_STIFFNESS / implicit, GRIP_DAMPING / implicit
@@ -110,7 +118,7 @@ class BulletWorld:
                 physicsClientId=self.client,
             )
         self._mass = human.mass
-        self._body = HumanBody(human, self._step)
+        self._body = HumanBody(human, self._step, self._table.weight_share)
         return self
 
     def reset(self) -> None:
@@ -121,7 +129,8 @@ class BulletWorld:
         self._reference = self._difference = self._wrists = self._backwards = 0.0
         self._height = self._velocity = self._pitch = self._pitch_rate = 0.0
         self._load = 0.0 if self._ball is None else self._ball.load(0.0)
-        zero, weight = [0.0], [WEIGHT_SHARE + self._carried]
+        share = self._table.weight_share
+        zero, weight = [0.0], [share + self._carried]
         self.human_end, self.robot_end = zero * HISTORY_FRAMES, zero * HISTORY_FRAMES
         self.human_velocity, self.robot_velocity = zero * HISTORY_FRAMES, zero * HISTORY_FRAMES
         self.human_force, self.robot_force = weight * HISTORY_FRAMES, weight * HISTORY_FRAMES
@@ -133,8 +142,8 @@ class BulletWorld:
         if self._touch:
             self._even = zero * HISTORY_FRAMES
         if self._ball is not None:
-            self._felt = [WEIGHT_SHARE] * HISTORY_FRAMES
-            self._far_felt = [WEIGHT_SHARE] * HISTORY_FRAMES
+            self._felt = [share] * HISTORY_FRAMES
+            self._far_felt = [share] * HISTORY_FRAMES
         self.hand_height = self.hands.hand_height(0.0)
 
     def advance(
@@ -161,6 +170,7 @@ class BulletWorld:
         pitch, pitch_rate = self._pitch, self._pitch_rate
         place, speed = self.ball_place[-1], self.ball_speed[-1]
         backwards, load = self._backwards, self._load
+        table_mass = self._table.mass
         joints = _JOINTS if ball is None else _ALL
         previous, wrists = self._reference, self._wrists
         frames = len(human_reference)
@@ -211,7 +221,7 @@ class BulletWorld:
             acceleration = (velocity - first_velocity) / FRAME
             centre = acceleration + half * (pitch_rate - first_pitch_rate)
             force = share * impulse - mass * acceleration
-            far_force = TABLE_MASS * (GRAVITY + centre) - force
+            far_force = table_mass * (GRAVITY + centre) - force
             human_end.append(height)
             robot_end.append(far_height)
             human_force.append(force)

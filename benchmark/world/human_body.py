@@ -75,10 +75,13 @@ class HumanBody:
         "_seen",
         "_smoothing",
         "_visual_gain",
+        "_weight",
     )
 
-    def __init__(self, parameters: BodyParameters, step: float) -> None:
-        """Prepare the gains for a physics step of ``step`` [s].
+    def __init__(
+        self, parameters: BodyParameters, step: float, weight: float = WEIGHT_SHARE
+    ) -> None:
+        """Prepare the gains for a physics step of ``step`` [s], and a share ``weight`` [N].
 
         The engine's velocities are those of mid-step; evaluating the damper there too (as the mean
         of the velocities before and after the step) makes the step second-order accurate.
@@ -92,6 +95,7 @@ class HumanBody:
         self._visual_gain = parameters.pull - felt
         self._haptic_gain = felt * TABLE_LENGTH**2 / GRIP_STIFFNESS
         self._smoothing = -math.expm1(-FRAME / MUSCLE_TIME)
+        self._weight = weight
         self._reflex = 0.0
 
     def reset(self) -> None:
@@ -108,7 +112,7 @@ class HumanBody:
             of the hands on the table [N].
         """
         wanted = self._visual_gain * (other[self._seen] - own[self._seen])
-        wanted -= self._haptic_gain * (force[self._felt] - WEIGHT_SHARE)
+        wanted -= self._haptic_gain * (force[self._felt] - self._weight)
         if wanted > REFLEX_LIMIT:
             wanted = REFLEX_LIMIT
         elif wanted < -REFLEX_LIMIT:
@@ -129,5 +133,5 @@ class HumanBody:
         return (
             self._gain_height * (reference - height)
             + self._gain_velocity * (rate - velocity)
-            + WEIGHT_SHARE
+            + self._weight
         )

@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, Protocol
+from typing import Final, Protocol, Self, runtime_checkable
 
 import numpy as np
 from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
 
 HISTORY_FRAMES: Final = 50
@@ -83,6 +84,8 @@ class Engine:
     """A simulation in which the hands of a :class:`FarEnd` hold the table."""
 
     physics: Physics
+    weight_share: float = WEIGHT_SHARE
+    """The weight that each end carries when the table is level and still [N]."""
 
 
 class Hands(Protocol):
@@ -138,6 +141,23 @@ class FarEnd(Protocol):
 
     def hold(self, engine: Engine) -> Hands:
         """Grip the table in an engine at the far end, and return the hands."""
+
+
+@runtime_checkable
+class Adjustable(FarEnd, Protocol):
+    """A robot whose arms can be exchanged for weaker or slower ones."""
+
+    def with_arms(self, sag: float, gain: float) -> Self:
+        """Return the same robot with other arms.
+
+        Parameters
+        ----------
+        sag
+            Factor of the displacement of its hands by weight and load.
+        gain
+            Factor of the share of a deviation from the set-point that is gone after a frame; below
+            1, the arms are slower.
+        """
 
 
 def since_reset(history: list[float]) -> NDArray[np.float64]:

@@ -1,15 +1,15 @@
 """The NAO's arms at the far end of the table."""
 
 import math
-from dataclasses import dataclass
-from typing import ClassVar, Final
+from dataclasses import dataclass, replace
+from typing import ClassVar, Final, Self
 
 from colift.agents.agent import FRAME
 from colift.benchmark.world.engine import BulletEngine
 from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.nao_arm import NaoArm
 from colift.benchmark.world.servo import SERVO, Servo
-from colift.benchmark.world.table import PITCH, WEIGHT_SHARE
+from colift.benchmark.world.table import PITCH
 from colift.robots.nao.facts import ARM
 from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
 
@@ -59,13 +59,14 @@ class NaoArms:
         for (arm, _), (_, _, aside) in zip(self._arms, sides, strict=True):
             arm.grip(engine.table, PITCH, (GRIP_X, aside, REST_Z))
         rest = path.row(0.0)
-        sag = self._weight_sag[rest] + self._compliance[rest] * WEIGHT_SHARE
+        sag = self._weight_sag[rest] + self._compliance[rest] * engine.weight_share
         self._offset = sag if servo.weight_offset else 0.0
+        self._share = engine.weight_share
         self.reset()
 
     def reset(self) -> None:
         """Hold rest height; the engine's state itself is restored by the world."""
-        self._load = WEIGHT_SHARE
+        self._load = self._share
         self._previous = self._target = self._row(0.0)
         self._driven = -1
 
@@ -126,6 +127,13 @@ class NaoFarEnd:
     """No mass beside that of the robot's own bodies [kg]."""
 
     carries: ClassVar[bool] = False
+
+    def with_arms(self, sag: float, gain: float) -> Self:
+        """Return the same robot with other servos; see :class:`.Adjustable`."""
+        servo = self.servo
+        share = -math.expm1(-FRAME / servo.time)
+        time = -FRAME / math.log1p(-gain * share)
+        return replace(self, servo=replace(servo, time=time, stiffness=servo.stiffness / sag))
 
     def hold(self, engine: Engine) -> NaoArms:
         """Grip the table with both hands; see :meth:`.FarEnd.hold`."""

@@ -24,7 +24,7 @@ class HumanFarEnd:
 
     def hold(self, engine: Engine) -> "SecondHuman":
         """Return the person's arms; see :meth:`.FarEnd.hold`."""
-        return SecondHuman(self.body, engine.physics.step)
+        return SecondHuman(self.body, engine.physics.step, engine.weight_share)
 
 
 class SecondHuman:
@@ -34,8 +34,8 @@ class SecondHuman:
     :func:`.table.table_urdf`) and the arms appear as a vertical force on its far end.
     """
 
-    def __init__(self, parameters: BodyParameters, step: float) -> None:
-        self._body = HumanBody(parameters, step)
+    def __init__(self, parameters: BodyParameters, step: float, weight: float) -> None:
+        self._body = HumanBody(parameters, step, weight)
         self._weight = parameters.mass * GRAVITY
         self.reset()
 

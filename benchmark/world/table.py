@@ -14,6 +14,7 @@ resist pitching, and the wrists of a following person yield. A height difference
 same with both.
 """
 
+from dataclasses import dataclass
 from typing import Final
 
 from colift.robots.nao.kinematics import GRIP_X, REST_Z
@@ -48,6 +49,39 @@ TABLE_INERTIA: Final = TABLE_MASS * TABLE_LENGTH**2 / 3
 WEIGHT_SHARE: Final = TABLE_MASS * GRAVITY / 2
 """The weight that each end carries when the table is level and still [N]."""
 
+
+@dataclass(frozen=True)
+class Table:
+    """A table, a thin uniform board of the length :data:`TABLE_LENGTH`.
+
+    Raises
+    ------
+    ValueError
+        If the mass is not positive.
+    """
+
+    mass: float = TABLE_MASS
+    """[kg]"""
+
+    def __post_init__(self) -> None:
+        """Check the mass."""
+        if not self.mass > 0:
+            raise ValueError(f"mass must be positive, got {self.mass} kg")
+
+    @property
+    def inertia(self) -> float:
+        """Moment of inertia about a grip [kg m2]."""
+        return self.mass * TABLE_LENGTH**2 / 3
+
+    @property
+    def weight_share(self) -> float:
+        """The weight that each end carries when the table is level and still [N]."""
+        return self.mass * GRAVITY / 2
+
+
+TABLE: Final = Table()
+"""The table of the paper."""
+
 FAR_GRIP: Final = (GRIP_X, 0.0, REST_Z)
 """Middle of the far grip at rest [m]; the world's origin is in the NAO's torso."""
 
@@ -55,7 +89,7 @@ SLIDE, HANDS, PITCH = 0, 1, 2
 """Joint indices of the tree; ``PITCH`` is also the index of the table's link."""
 
 
-def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
+def table_urdf(hand_mass: float, far_mass: float = 0.0, table: Table = TABLE) -> str:
     """Return the URDF of the tree; the origin is the human's grip at rest, the table towards -x.
 
     Parameters
@@ -64,11 +98,13 @@ def table_urdf(hand_mass: float, far_mass: float = 0.0) -> str:
         Apparent mass of the human's arms in z [kg].
     far_mass
         Point mass at the far end [kg]: the arms of a second human, who grips it rigidly.
+    table
+        The table.
     """
     half = TABLE_LENGTH / 2
-    mass = TABLE_MASS + far_mass
-    centre = (TABLE_MASS * half + far_mass * TABLE_LENGTH) / mass
-    about_grip = TABLE_INERTIA + far_mass * TABLE_LENGTH**2
+    mass = table.mass + far_mass
+    centre = (table.mass * half + far_mass * TABLE_LENGTH) / mass
+    about_grip = table.inertia + far_mass * TABLE_LENGTH**2
     pitch_inertia = about_grip - mass * centre**2
     small = 1e-3
     # PyBullet reads an empty range as no limit, which saves rows of the solver.

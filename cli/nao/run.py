@@ -275,7 +275,7 @@ def _report(
     if as_json:
         print_json(plain)
         return
-    show(results_table(content, done.suite.metrics), results_text(content))
+    show(results_table(content, done.suite.metrics), results_text(content, done.suite.metrics))
     if len(done.episodes) > 1:
         show(f"The interval holds for further lifts of {done.episodes[0].subject}.")
     show(timing_table(timing))

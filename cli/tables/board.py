@@ -2,10 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
+from colift.benchmark.comparison.formatting import between
 from colift.benchmark.episode.metric import Metric
+from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, optional_number, styled, table
-from colift.leaderboard.core.standings import HumanHumanScores, RankedRow
+from colift.leaderboard.core.standings import RankedRow, UnrankedScores
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import SeasonInfo
@@ -18,10 +20,10 @@ NAME = 12
 def board_table(
     season: SeasonInfo,
     standings: Sequence[RankedRow],
-    human_human: HumanHumanScores | None,
+    human_human: UnrankedScores | None,
     width: int,
 ) -> Table:
-    """Return a season's table: policies that cannot be distinguished share a rank.
+    """Return a season's table, by rank.
 
     The human-human baseline is placed by its mean.
 
@@ -38,7 +40,7 @@ def board_table(
         metrics = every[:shown]
         titles = ["rank", "policy", "RMSE mm", "95 % interval", "vs human"]
         titles += [metric.heading for metric in metrics]
-        titles += ["ms/step", "gap mm", "verified"] if wide else []
+        titles += ["ms/step", "gap", "verified"] if wide else []
         lines = list(_lines(standings, human_human, metrics, wide))
         room, longest = _room(titles, lines, 1, width)
         if room >= min(NAME, longest):
@@ -47,7 +49,10 @@ def board_table(
     most = max(room, len("policy"))
     columns[1] = Column("policy", overflow="ellipsis", no_wrap=True, max_width=most)
     title = f"Season {season.name} on {season.suite}"
-    return table(title, columns, lines, caption=_caption(metrics, every[len(metrics) :], wide))
+    caption = _caption(metrics, every[len(metrics) :], wide)
+    if any(each.row.hidden.rougher for each in standings):
+        caption += f" {SIGN}: {ROUGHER}."
+    return table(title, columns, lines, caption=caption)
 
 
 def _room(
@@ -61,7 +66,7 @@ def _room(
 
 def _lines(
     standings: Sequence[RankedRow],
-    human_human: HumanHumanScores | None,
+    human_human: UnrankedScores | None,
     metrics: Sequence[Metric],
     wide: bool,
 ) -> Iterator[Sequence[Cell]]:
@@ -89,19 +94,20 @@ def _cells(each: RankedRow, metrics: Sequence[Metric], wide: bool) -> list[str]:
         *(metric.text(row.public.metrics[metric.name].mean) for metric in metrics),
     ]
     if wide:
-        cells += [_step(row), f"{row.gap_mm.mean:+.2f}", "yes" if row.verified else "no"]
+        cells += [_step(row), f"{row.gap.mean:.2f}", "yes" if row.verified else "no"]
     return cells
 
 
 def _rank(each: RankedRow) -> str:
+    mark = f" {SIGN}" if each.row.hidden.rougher else ""
     if each.section == "not real-time":
-        return f"slow {each.group or ''}".rstrip()
+        return f"slow {each.rank or ''}".rstrip() + mark
     if each.section == "ranking":
-        return str(each.group or "-")
-    return each.section
+        return str(each.rank or "-") + mark
+    return each.section + mark
 
 
-def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
+def _human_human(baseline: UnrankedScores, metrics: Sequence[Metric], wide: bool) -> list[str]:
     cells: list[str] = [
         "",
         "two people",
@@ -114,12 +120,15 @@ def _human_human(baseline: HumanHumanScores, metrics: Sequence[Metric], wide: bo
 
 
 def _caption(metrics: Sequence[Metric], left_out: Sequence[Metric], wide: bool) -> str:
-    common = "One rank: no significant difference. RMSE: hidden lifts. vs human: 1 is two people"
+    common = (
+        "Rank: 1 + the policies that are better beyond chance. RMSE: hidden lifts. vs human: 1 is "
+        "two people"
+    )
     if wide:
         shown = ", ".join(map(_named, metrics))
         text = (
             f"{common}, less is better. {shown} and time per step: public lifts. "
-            "Gap: hidden minus public RMSE."
+            "Gap: vs human on hidden lifts over that on public ones."
         )
     else:
         text = f"{common}. {', '.join(metric.symbol for metric in metrics)}: public lifts."
@@ -133,8 +142,7 @@ def _named(metric: Metric) -> str:
 
 
 def _interval(estimate: Estimate) -> str:
-    low, high = estimate.ci95
-    return f"{low:.2f} to {high:.2f}"
+    return between(estimate.ci95, ".2f")
 
 
 def _step(row: BoardRow) -> str:

@@ -2,12 +2,13 @@
 
 from typing import Final
 
-from colift.benchmark.comparison.captions import marks_caption, title, undecided
+from colift.benchmark.comparison.captions import RANK, marks_caption, title, undecided
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
 from rich.table import Column, Table
@@ -17,7 +18,7 @@ NAME: Final = 18
 """Longest name that stays on one line."""
 
 BASELINE: Final = "blue"
-"""Style of the rows of the human-human baseline and of the bounds."""
+"""Style of the rows of the human-human baseline and of the references."""
 
 
 def ranks_table(comparison: Comparison) -> Table:
@@ -27,8 +28,8 @@ def ranks_table(comparison: Comparison) -> Table:
         (ranked.rmse_mm.mean, _policy_row(comparison, ranked)) for ranked in overall.policies
     ]
     rows += [
-        (overall.references_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
-        for name in comparison.results.references
+        (overall.unranked_rmse_mm[name].mean, styled(_baseline_row(comparison, name), BASELINE))
+        for name in comparison.results.unranked
     ]
     return table(
         title(comparison),
@@ -40,9 +41,9 @@ def ranks_table(comparison: Comparison) -> Table:
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
-        + (undecided(overall) or "Policies of one rank (#) do not differ significantly.")
-        + f" vs_human: RMSE divided by that of the {HUMAN_HUMAN_LABEL}."
-        f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}",
+        + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
+        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
+        f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 
 
@@ -52,9 +53,9 @@ def _columns(comparison: Comparison) -> str:
 
 
 def _no_policies(comparison: Comparison) -> str:
-    """Return a sentence that names the bounds; empty if there are none."""
-    names = [f"the {name.replace('_', ' ')}" for name in reversed([*comparison.results.bounds])]
-    are = "are not policies but limits" if len(names) > 1 else "is no policy but a limit"
+    """Return a sentence that names the references; empty if there are none."""
+    names = [f"the {reference_label(name)}" for name in reversed([*comparison.results.references])]
+    are = "are no policies but references" if len(names) > 1 else "is no policy but a reference"
     listed = " and ".join(names)
     return f" {listed[0].upper()}{listed[1:]} {are}." if names else ""
 
@@ -70,15 +71,21 @@ def _fewer(comparison: Comparison) -> str:
     return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
 
+def _rough(comparison: Comparison) -> str:
+    """Return the meaning of the mark of rough policies; empty if there is none."""
+    marked = any(ranked.rougher for ranked in comparison.overall.policies)
+    return f" {SIGN}: {ROUGHER}." if marked else ""
+
+
 def _baseline_row(comparison: Comparison, name: str) -> list[str]:
-    baseline, overall = comparison.results.references[name], comparison.overall
-    rmse = overall.references_rmse_mm[name]
+    baseline, overall = comparison.results.unranked[name], comparison.overall
+    rmse = overall.unranked_rmse_mm[name]
     return [
         "",
         name,
         f"{rmse.mean:.2f}",
         _interval(rmse),
-        f"{rmse.mean / overall.human_human_rmse_mm.mean:.2g}",
+        f"{overall.unranked_vs_human[name].mean:.2g}",
         *(metric.text(baseline.means[metric.name]) for metric in comparison.results.metrics),
     ]
 
@@ -86,13 +93,18 @@ def _baseline_row(comparison: Comparison, name: str) -> list[str]:
 def _policy_row(comparison: Comparison, ranked: RankedPolicy) -> list[Cell]:
     overall, metrics = comparison.overall, comparison.results.metrics
     return [
-        str(ranked.rank) if overall.decisive else "",
+        _rank(overall, ranked),
         policy_cell(ranked.name),
         f"{ranked.rmse_mm.mean:.2f}",
         _interval(ranked.rmse_mm),
         f"{ranked.vs_human.mean:.2f}",
         *(_metric(metric, ranked) for metric in metrics),
     ]
+
+
+def _rank(overall: Ranking, ranked: RankedPolicy) -> str:
+    rank = str(ranked.rank) if overall.decisive else ""
+    return f"{rank} {SIGN}".lstrip() if ranked.rougher else rank
 
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> str:
@@ -127,10 +139,10 @@ def differences_table(comparison: Comparison) -> Table:
         f"Behind {best.name}, on the same lifts",
         ("policy", "RMSE mm", "95 %", "p", "better", "P(< human)"),
         rows,
-        caption="RMSE: difference to the best policy. p: of its permutation test, Holm-corrected. "
-        "better: share of the lifts in which the policy has the lower RMSE. P(< human): "
-        f"probability that its mean RMSE is below the {HUMAN_HUMAN_LABEL}'s; for {best.name} it is "
-        f"{probability(best.better_than_human)}.",
+        caption="RMSE: difference to the best policy. p: of sign flips of people, corrected for "
+        "all pairs. better: share of the lifts in which the policy has the lower RMSE. P(< human): "
+        f"probability that vs_human is below 1 with other people; for {best.name} it is "
+        f"{probability(best.better_than_human) or 'not known'}.",
     )
 
 
@@ -142,8 +154,8 @@ def behaviours_table(comparison: Comparison) -> Table:
         [policy_cell(name), *map(_mark, rankings, (column[name] for column in columns))]
         for name in (ranked.name for ranked in comparison.overall.policies)
     ]
-    for name in comparison.results.references:
-        errors = (ranking.references_rmse_mm[name].mean for ranking in rankings)
+    for name in comparison.results.unranked:
+        errors = (ranking.unranked_rmse_mm[name].mean for ranking in rankings)
         cells = (f"{error:{digits(error)}}  " for error in errors)
         rows.append(styled((name, *cells), BASELINE))
     return table(

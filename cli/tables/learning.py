@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 from colift.agents.control.anticipation import Anticipation
 from colift.agents.control.learned_task import LearnedTask
+from colift.agents.control.linear_forecast import TAPS, LinearForecast
 from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS
 from colift.benchmark.tables.printing import Cell, counted, table
 from colift.benchmark.training.q_learning import LearningTrial
@@ -81,5 +82,20 @@ def anticipation_table(models: list[Anticipation]) -> Table:
                 *(f"{error:.2f}" for error in model.provenance["rms_error_mm"][::SHOWN]),
             )
             for number, model in enumerate(models, 1)
+        ),
+    )
+
+
+def linear_table(forecast: LinearForecast) -> Table:
+    """Return the weights of the linear forecast at each horizon, and its error."""
+    errors = forecast.provenance["mean_rmse_mm"]
+    return table(
+        "Rise of the human's end as a sum of its past changes, the latest first",
+        ("ahead", "RMSE mm", *(str(number) for number in range(1, TAPS))),
+        (
+            (f"{1000 * horizon:.0f} ms", f"{error:.2f}", *(f"{weight:+.2f}" for weight in row))
+            for horizon, error, row in zip(
+                forecast.horizons.tolist(), errors, forecast.weights.tolist(), strict=True
+            )
         ),
     )

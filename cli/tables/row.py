@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from colift.benchmark.comparison.formatting import probability
+from colift.benchmark.comparison.formatting import between, probability
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import table
 from colift.leaderboard.core.standings import Section
@@ -17,7 +17,7 @@ UNRANKED: Final[dict[Section, str]] = {
 }
 
 SectionRow = tuple[Section, int, BoardRow]
-"""A row with its section of the season's table and its rank group there."""
+"""A row with its section of the season's table and its rank there."""
 
 
 def row_table(row: BoardRow) -> Table:
@@ -29,10 +29,10 @@ def row_table(row: BoardRow) -> Table:
             ("RMSE mm", *(_estimate(each.rmse_mm) for each in (row.public, row.hidden))),
             ("vs_human", *(_estimate(each.vs_human) for each in (row.public, row.hidden))),
             ("failed", *(f"{each.failed} of {each.episodes}" for each in (row.public, row.hidden))),
-            ("P(RMSE < two people's)", "", probability(row.hidden.better_than_human)),
+            ("P(vs_human < 1)", "", probability(row.hidden.better_than_human)),
         ),
         caption=f"season {row.season}, {row.suite}, suite digest {row.suite_digest}. "
-        "P: probability that the mean RMSE on such lifts is below the human-human baseline's.",
+        "P: probability that vs_human is below 1 with other people.",
     )
 
 
@@ -47,7 +47,7 @@ def row_text(
     )
     lines = [
         UNRANKED.get(section) or _rank(row, ranking, section),
-        f"Gap {_estimate(row.gap_mm)} mm: hidden minus public RMSE, with other people and plans",
+        f"Gap {_estimate(row.gap)}: vs_human on hidden lifts over that on public ones",
         ", ".join(metrics),
     ]
     if public.step_ms_p50 is not None and public.step_ms_p99 is not None:
@@ -64,13 +64,13 @@ def row_text(
 def _rank(row: BoardRow, ranking: Sequence[tuple[int, BoardRow]], section: Section) -> str:
     rank = next(rank for rank, each in ranking if each.submission == row.submission)
     if not rank:
-        return "No rank: the lifts are too few to rank the policies of this board"
+        return "No rank: the people are too few to rank the policies of this board"
     sharing = sum(each == rank for each, _ in ranking) - 1
-    shared = f", shared with {sharing} that cannot be distinguished from it" if sharing else ""
+    shared = f", shared with {sharing}" if sharing else ""
     slow = "" if section == "ranking" else " that are not real-time"
     return f"Rank {rank} of {len(ranking)} policies{slow}{shared}"
 
 
 def _estimate(estimate: Estimate) -> str:
-    low, high = estimate.ci95
-    return f"{estimate.mean:.2f} ({low:.2f} to {high:.2f})"
+    interval = between(estimate.ci95, ".2f")
+    return f"{estimate.mean:.2f}" + (f" ({interval})" if interval else "")

@@ -3,10 +3,11 @@
 import re
 import textwrap
 from collections.abc import Callable, Iterator
-from typing import Final
+from typing import Final, Literal
 
 from colift.benchmark.comparison.formatting import digits, p_value
 from colift.benchmark.tables.printing import counted, styled, table
+from colift.benchmark.validity.prediction import BetterThanPeople
 from colift.benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
 from colift.benchmark.validity.scores import Quantity, Scores
 from colift.cli.tables.comparison import BASELINE
@@ -18,11 +19,13 @@ HEADING: Final = 12
 MEANINGS: Final = (
     "Spearman, Kendall: rank correlation of the policies' mean RMSE on the suite and on the "
     "source; 1 is the same order. Of best half: Kendall among the better half of the policies on "
-    "the suite. Ratio: RMSE divided by that of two people on the same lifts. Off by: median factor "
-    "between the ratios on source and suite, either way. Bias: median of the ratio on the source "
-    "over that on the suite. Place, behind: of the suite's best policy, on the source; behind the "
-    "best other policy, with the Holm-corrected p of the difference. In brackets: 95 % intervals, "
-    "for other lifts of the same people."
+    "the suite. Beating people: the policies with less error than two people on the suite, and "
+    "the correlations among these alone. Ratio: RMSE divided by that of two people on the same "
+    "lifts. Off by: median factor between the ratios on source and suite, either way. Bias: median "
+    "of the ratio on the source over that on the suite. Place, behind: of the suite's best policy, "
+    "on the source; behind the best other policy, with the Holm-corrected p of the difference. In "
+    "brackets: 95 % intervals, for other people where the source names them, else for other lifts "
+    "of the same people."
 )
 """Meaning of the lines of :func:`source_table`."""
 
@@ -52,6 +55,9 @@ def _lines() -> Iterator[tuple[str, Callable[[SuiteOnSource], str]]]:
     yield "Spearman", lambda suite: _quantity(suite.prediction.spearman)
     yield "Kendall", lambda suite: _quantity(suite.prediction.kendall)
     yield "of best half", lambda suite: _quantity(suite.prediction.kendall_best_half)
+    yield "beating people", lambda suite: _better(suite.prediction.better)
+    yield "  Spearman", lambda suite: _better(suite.prediction.better, "spearman")
+    yield "  Kendall", lambda suite: _better(suite.prediction.better, "kendall")
     yield "ratios off by", lambda suite: _quantity(suite.prediction.factor)
     yield "bias", lambda suite: _quantity(suite.prediction.bias)
     yield "best policy", lambda suite: suite.verdict.policy
@@ -92,6 +98,16 @@ def _mm(found: Quantity) -> str:
 
 def _quantity(found: Quantity) -> str:
     return f"{found.value:.2f} ({_interval(found)})"
+
+
+def _better(
+    found: BetterThanPeople | None, measure: Literal["spearman", "kendall"] | None = None
+) -> str:
+    if found is None:
+        return "too few" if measure is None else ""
+    if measure is None:
+        return f"{len(found.policies)} policies"
+    return _quantity(found.spearman if measure == "spearman" else found.kendall)
 
 
 def _interval(found: Quantity) -> str:

@@ -1,6 +1,7 @@
 """Recorded outputs of commands: numbers from them, and sentences that fit the page.
 
-``{figure}`bounds|0.360``` shows 0.360, and fails the build if ``figures/bounds.txt`` has no 0.360.
+``{figure}`references|0.360``` shows 0.360, and fails the build if
+``figures/references.txt`` has no 0.360.
 """
 
 from pathlib import Path

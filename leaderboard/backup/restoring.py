@@ -158,6 +158,7 @@ def _check(store: Store, wanted: BackupContents) -> list[str]:
         if commitment(secrets.secret()) != promised:
             raise InputError(f"the secret of season {season} does not match its commitment")
         secrets.known_human_human()
+        secrets.known_references()
     missing = []
     for place, needed in wanted.places():
         if needed and not (store.folder / place).exists():

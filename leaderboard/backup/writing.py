@@ -84,6 +84,7 @@ class BackupContents:
         for season in self.seasons:
             yield f"private/{season}/secret", f"the secret of season {season}"
             yield f"private/{season}/human_human.json", ""
+            yield f"private/{season}/references.json", ""
             yield f"private/{season}/logs", ""
         for season, digest, row in self.entries:
             needed = f"the bundle of {digest} in season {season}" if row else ""

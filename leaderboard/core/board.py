@@ -16,10 +16,10 @@ from colift.agents.submissions.submission import Submission
 from colift.base.errors import InputError
 from colift.leaderboard.core.seasons import Clock, ImportedSeason, SeasonBook, utc_now
 from colift.leaderboard.core.standings import (
-    HumanHumanScores,
     RankedRow,
+    UnrankedScores,
     frame,
-    human_human_scores,
+    unranked_scores,
 )
 from colift.leaderboard.core.tables import Tables
 from colift.leaderboard.database.connection import URL, Database
@@ -217,7 +217,7 @@ class Board:
     def standings(self, season: str | None = None) -> tuple[RankedRow, ...]:
         """Return the table of a season, best first; rows out of the ranking are at the end.
 
-        Ranks follow from the hidden episodes, lift by lift; see :func:`.rank_groups`. They are
+        Ranks follow from the hidden episodes, lift by lift; see :func:`.all_pairs`. They are
         computed if that has not been done yet; ``tables`` has the table without this wait.
 
         Parameters
@@ -245,11 +245,23 @@ class Board:
         """
         return frame(self.standings(season), self.season_info(season).suite)
 
-    def human_human(self, season: str | None = None) -> HumanHumanScores | None:
+    def human_human(self, season: str | None = None) -> UnrankedScores | None:
         """Return a season's human-human baseline on hidden episodes; None before the first row."""
         info = self.season_info(season)
         known = self.store.secrets(info.name).known_human_human()
-        return None if known is None else human_human_scores(known, info.suite)
+        return None if known is None else unranked_scores(known, known, info.suite)
+
+    def references(self, season: str | None = None) -> dict[str, UnrankedScores]:
+        """Return a season's references on hidden episodes by name; none until they are played."""
+        info = self.season_info(season)
+        secrets = self.store.secrets(info.name)
+        human_human = secrets.known_human_human()
+        if human_human is None:
+            return {}
+        return {
+            name: unranked_scores(scores, human_human, info.suite)
+            for name, scores in secrets.known_references().items()
+        }
 
     def entry(self, season: str, digest: str) -> BoardEntry | None:
         """Return the entry of a submission, or None if it has not been evaluated."""

@@ -1,4 +1,4 @@
-"""Rank groups of a season, computed from the hidden episodes, and stored.
+"""Ranks of a season, computed from the hidden episodes, and stored.
 
 Nobody who reads a board waits for them: the stored ones stand until the next are there.
 """
@@ -12,17 +12,13 @@ from dataclasses import dataclass, field
 from typing import Any, Final, Self
 
 import sqlalchemy as sa
-from colift.benchmark.statistics import decisive
-from colift.benchmark.statistics import rank_groups as grouped
+from colift.benchmark.statistics import Units, all_pairs, decisive
 from colift.leaderboard.database.connection import Database
 from colift.leaderboard.database.queries import read_errors
 from colift.leaderboard.database.schema import rank_groups
 
-METHOD: Final = 3
+METHOD: Final = 4
 """Version of the method; every change that can move a rank raises it."""
-
-LEVEL: Final = 0.05
-"""Largest corrected p value at which two policies differ."""
 
 Scored = Mapping[str, Mapping[str, int]]
 """The submissions to rank, by section, each with the number of its valid ``hidden_errors``."""
@@ -36,15 +32,15 @@ class Ranks:
     """Of the errors that they were computed from, see :func:`fingerprint`."""
     sections: tuple[tuple[str, ...], ...] = ()
     """The submissions of each section, best first."""
-    groups: Mapping[str, int] = field(default_factory=dict)
-    """Rank group of each submission: 1 is the best, 0 is none."""
+    ranks: Mapping[str, int] = field(default_factory=dict)
+    """Rank of each submission: 1 is the best, 0 is none."""
     numbers: Mapping[str, int] = field(default_factory=dict)
     """Number of the errors of each submission."""
 
     def of(self, submission: str, number: int | None) -> int | None:
-        """Return the group of a submission with these errors; None if it has not been ranked."""
+        """Return the rank of a submission with these errors; None if it has not been ranked."""
         same = number is not None and self.numbers.get(submission) == number
-        return self.groups[submission] if same else None
+        return self.ranks[submission] if same else None
 
     @functools.cached_property
     def places(self) -> dict[str, int]:
@@ -58,12 +54,12 @@ class Ranks:
 
     @functools.cached_property
     def _sizes(self) -> Counter[tuple[int, int]]:
-        return Counter((self._section[each], group) for each, group in self.groups.items())
+        return Counter((self._section[each], rank) for each, rank in self.ranks.items())
 
     def shared(self, submission: str) -> int:
-        """Return the number of submissions in the group of one."""
+        """Return the number of submissions that have the rank of one."""
         where = self._section.get(submission)
-        return 1 if where is None else self._sizes[where, self.groups[submission]]
+        return 1 if where is None else self._sizes[where, self.ranks[submission]]
 
     def fellows(self, submission: str) -> tuple[str, ...]:
         """Return the submissions that are ranked with one, best first."""
@@ -73,7 +69,7 @@ class Ranks:
     def plain(self) -> dict[str, Any]:
         """Return them as JSON, without the fingerprint."""
         return {
-            "sections": [[[each, self.groups[each]] for each in some] for some in self.sections],
+            "sections": [[[each, self.ranks[each]] for each in some] for some in self.sections],
             "numbers": dict(self.numbers),
         }
 
@@ -85,7 +81,7 @@ class Ranks:
         return cls(
             fingerprint=fingerprint,
             sections=tuple(tuple(each for each, _ in some) for some in content["sections"]),
-            groups={each: group for some in content["sections"] for each, group in some},
+            ranks={each: rank for some in content["sections"] for each, rank in some},
             numbers=content["numbers"],
         )
 
@@ -96,24 +92,34 @@ def fingerprint(scored: Scored) -> str:
     return hashlib.sha256(json.dumps([METHOD, plain]).encode()).hexdigest()
 
 
-def compute_ranks(database: Database, season: str, scored: Scored) -> None:
+def compute_ranks(database: Database, season: str, scored: Scored, people: Units | None) -> None:
     """Compute and store the ranks of some submissions; each section is ranked by itself.
 
-    See :func:`.rank_groups`. If the lifts are too few to distinguish any two, the group is 0.
+    See :attr:`.Family.ranks`. If the people are too few to tell any two apart, the rank is 0.
+
+    Parameters
+    ----------
+    database, season, scored
+        The season's submissions.
+    people
+        The people of its hidden lifts. Where they are not known, since no baseline has been played
+        on these lifts, each lift counts as one person.
     """
     sections: list[tuple[str, ...]] = []
-    groups: dict[str, int] = {}
+    ranks: dict[str, int] = {}
     for numbers in filter(None, scored.values()):
         with database.reading() as connection:
             errors = read_errors(connection, season, numbers)
-        found = grouped(errors, level=LEVEL)
         lifts = min((len(each) for each in errors.values()), default=0)
-        first = 1 if decisive(len(errors), lifts, level=LEVEL) else 0
-        groups |= {each: first + i for i, group in enumerate(found) for each in group}
-        sections.append(tuple(each for group in found for each in group))
+        known = people is not None and len(people.unit) == lifts
+        units = people if people and known else Units.episodes(["hidden"] * lifts)
+        found = all_pairs(errors, units).ranks
+        told = decisive(units.count) or len(errors) == 1
+        ranks |= {each: rank if told else 0 for each, rank in found.items()}
+        sections.append(tuple(found))
     made = Ranks(
         sections=tuple(sections),
-        groups=groups,
+        ranks=ranks,
         numbers={each: number for some in scored.values() for each, number in some.items()},
     )
     mark = fingerprint(scored)

@@ -1,8 +1,8 @@
 """The seasons of a board: start, end and import."""
 
 import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Any, Final
 
@@ -36,6 +36,8 @@ class ImportedSeason:
     entries: Sequence[PlayedEntry]
     human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
+    references: Mapping[str, ScoreTable] = field(default_factory=dict)
+    """The references on the hidden episodes, by name."""
 
 
 NAME: Final = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,39}")
@@ -131,6 +133,7 @@ class SeasonBook:
         secrets.forget_secret()
         secrets.keep_secret(secret)
         secrets.keep_human_human(practice.human_human)
+        secrets.keep_references(practice.references)
         for each in practice.entries:
             place = self.store.bundle(info.name, each.entry.submission)
             for name, data in each.files.items():

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from colift.base.errors import InputError
 from colift.base.extras import how_to_install
 from colift.benchmark.results.scores import ScoreTable
-from colift.benchmark.statistics import Estimate
+from colift.benchmark.statistics import Estimate, Interval
 from colift.leaderboard.evaluation.scoring import PLACES
 from colift.leaderboard.records.metrics import board_metrics, known_means
 from colift.leaderboard.records.row import BoardRow
@@ -27,9 +27,10 @@ rows and those that were withdrawn or removed."""
 class RankedRow:
     """A row with its rank and its events."""
 
-    group: int
-    """Rank group in its section, 1 the best. 0 is none: the section has no ranks, the lifts are
-    too few to distinguish any two policies, or the rank is ``pending``."""
+    rank: int
+    """Rank in its section, see :attr:`.Family.ranks`; 1 is the best. 0 is none: the
+    section has no ranks, the people are too few to tell any two policies apart, or the rank is
+    ``pending``."""
     row: BoardRow
     """The row of the last rescore, or of the entry if there was none."""
     at: datetime
@@ -52,10 +53,12 @@ class RankedRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class HumanHumanScores:
-    """The human-human baseline on a season's hidden episodes."""
+class UnrankedScores:
+    """The human-human baseline, or a reference, on a season's hidden episodes."""
 
     rmse_mm: Estimate
+    ratio: float
+    """``vs_human``; 1 for the human-human baseline."""
     means: Mapping[str, float | None]
     """Means of the other metrics of a board, by name."""
 
@@ -84,13 +87,14 @@ def row_now(row: BoardRow, events: Sequence[Event]) -> BoardRow:
 
 
 @functools.lru_cache(maxsize=16)
-def human_human_scores(human_human: ScoreTable, suite: str) -> HumanHumanScores:
-    """Return the published part of a suite's baseline on hidden episodes, rounded like a row."""
-    return HumanHumanScores(
-        rmse_mm=human_human.error.rounded(PLACES),
+def unranked_scores(scores: ScoreTable, human_human: ScoreTable, suite: str) -> UnrankedScores:
+    """Return the published part of scores on a suite's hidden episodes, rounded like a row."""
+    return UnrankedScores(
+        rmse_mm=scores.error.rounded(PLACES),
+        ratio=round(scores.against(human_human).ratio.mean, PLACES),
         means={
             name: None if mean is None else round(mean, PLACES)
-            for name, mean in known_means(human_human.means, suite).items()
+            for name, mean in known_means(scores.means, suite).items()
         },
     )
 
@@ -115,7 +119,7 @@ def columns(suite: str) -> tuple[str, ...]:
 
 HIDDEN_COLUMNS: Final = (
     "section",
-    "group",
+    "rank",
     "name",
     "authors",
     "rmse_mm",
@@ -125,11 +129,12 @@ HIDDEN_COLUMNS: Final = (
     "vs_human_low",
     "vs_human_high",
     "better_than_human",
+    "rougher",
     "failed",
     "public_rmse_mm",
     "public_rmse_mm_low",
     "public_rmse_mm_high",
-    "gap_mm",
+    "gap",
 )
 
 OTHER_COLUMNS: Final = (
@@ -148,18 +153,19 @@ def _flat(each: RankedRow) -> tuple[object, ...]:
     row, hidden, public = each.row, each.row.hidden, each.row.public
     return (
         each.section,
-        each.group,
+        each.rank,
         row.name,
         ", ".join(row.authors),
         hidden.rmse_mm.mean,
-        *hidden.rmse_mm.ci95,
+        *_ends(hidden.rmse_mm),
         hidden.vs_human.mean,
-        *hidden.vs_human.ci95,
+        *_ends(hidden.vs_human),
         hidden.better_than_human,
+        None if hidden.rougher is None else " ".join(hidden.rougher),
         hidden.failed,
         public.rmse_mm.mean,
-        *public.rmse_mm.ci95,
-        row.gap_mm.mean,
+        *_ends(public.rmse_mm),
+        row.gap.mean,
         *(public.metrics[metric.name].mean for metric in board_metrics(row.suite)),
         public.step_ms_p50,
         public.step_ms_p99,
@@ -170,3 +176,7 @@ def _flat(each: RankedRow) -> tuple[object, ...]:
         each.at,
         row.submission,
     )
+
+
+def _ends(estimate: Estimate) -> Interval | tuple[None, None]:
+    return estimate.ci95 or (None, None)

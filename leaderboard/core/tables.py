@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import sqlalchemy as sa
+from colift.benchmark.statistics import Units
 from colift.leaderboard.core.ranks import Ranks, Scored, compute_ranks, fingerprint, read_ranks
 from colift.leaderboard.core.standings import ORDER, RANKED, RankedRow, Section, row_now, section
 from colift.leaderboard.database.connection import Database
@@ -48,8 +49,8 @@ class Table:
 
     @functools.cached_property
     def sizes(self) -> Mapping[int, int]:
-        """Number of policies in each rank group of the ranking."""
-        return Counter(each.group for each in self.ranking)
+        """Number of policies of each rank of the ranking."""
+        return Counter(each.rank for each in self.ranking)
 
     @functools.cached_property
     def by_digest(self) -> Mapping[str, RankedRow]:
@@ -115,8 +116,13 @@ class Tables:
             with self._store.ranking():
                 table = self.read(season)
                 if not table.current:  # Another process may have done it.
-                    compute_ranks(self._database, season, table.scored)
+                    compute_ranks(self._database, season, table.scored, self._people(season))
         return table
+
+    def _people(self, season: str) -> Units | None:
+        """Return the people of a season's hidden lifts, once its human-human baseline is known."""
+        known = self._store.secrets(season).known_human_human()
+        return None if known is None else known.units
 
     def row(self, season: str, submission: str) -> RankedRow | None:
         """Return a row with its present rank; None if there is none. This builds no table."""
@@ -240,12 +246,12 @@ def _ranked_row(
 ) -> RankedRow:
     """Return a row with its rank, if its section has ranks."""
     has_rank = section(row, history) in RANKED and number is not None
-    group = ranks.of(entry.submission, number) if has_rank else 0
+    rank = ranks.of(entry.submission, number) if has_rank else 0
     return RankedRow(
-        group=group or 0,
+        rank=rank or 0,
         row=row,
         at=entry.at,
         events=history,
         submitter=entry.submitter,
-        pending=group is None,
+        pending=rank is None,
     )

@@ -27,10 +27,13 @@ LICENCE: Final = "MIT"
 LEARNED: Final[Mapping[str, str]] = {
     "anticipate": "anticipate",
     "blend": "reactive",
+    "learned": "learned",
+    "linear": "linear",
     "reactive": "reactive",
     "task_model": "task_model",
 }
-"""Policies with learned parameters, and their files below ``agents/control/data``."""
+"""Policies with learned parameters, and the files that say how they were learned, below
+``agents/control/data``."""
 
 
 @dataclass(frozen=True, kw_only=True)

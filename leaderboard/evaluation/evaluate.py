@@ -12,12 +12,15 @@ from colift.agents.sandbox.host.levels import VERIFIABLE
 from colift.agents.spec import AgentSpec
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import results, write_bundle
+from colift.benchmark.comparison.playing import play_references
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.distributions import library_versions
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import (
     BASELINES,
+    HUMAN_HUMAN,
     human_human_run,
     play_baselines,
     shipped_baselines,
@@ -101,7 +104,8 @@ def evaluate_entrant(
     _check(entrant, season.suite, playing, watch)
     watch.stage("public run")
     public = run_suite(entrant.policy, season.suite, **playing)
-    content = results(public, _baselines(season, executor, watch))
+    baselines = _baselines(season, executor, watch)
+    content = results(public, baselines)
     write_bundle(bundle, public, content.plain())
     if all(episode.failure is not None for episode in public.episodes):
         watch.output(public.episodes[0].log)
@@ -124,7 +128,10 @@ def evaluate_entrant(
             season,
             public_scores(content),
             hidden_scores(hidden, human_human),
-            gap(hidden, public),
+            gap(
+                ScoreTable.of(hidden).against(human_human),
+                ScoreTable.of(public).against(baselines[HUMAN_HUMAN]),
+            ),
         ),
         refusal=None,
         hidden_rmse_mm=tuple(episode.scores["rmse_mm"] for episode in hidden.episodes),
@@ -196,6 +203,21 @@ def play_human_human(
     return ScoreTable.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
 
 
+def play_season_references(
+    season: Season,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> dict[str, ScoreTable]:
+    """Return the references of a season's suite on its hidden episodes, by name.
+
+    They stand beside the rows, on the rows' lifts. ``progress`` is called with each number of
+    episodes that has been played.
+    """
+    known = suite_references(season.hidden)
+    return play_references(known, season.hidden, executor=executor, progress=progress)
+
+
 def _baselines(
     season: Season, executor: Executor | None, watch: Callbacks
 ) -> dict[str, ScoreTable]:
@@ -215,7 +237,7 @@ def _verify(bundle: Path, executor: Executor | None, watch: Callbacks) -> None:
 
 
 def _row(
-    entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap_mm: Estimate
+    entrant: Entrant, season: Season, public: PublicScores, hidden: HiddenScores, gap: Estimate
 ) -> BoardRow:
     about, isolation = entrant.manifest, entrant.policy.isolation
     return BoardRow(
@@ -232,7 +254,7 @@ def _row(
         submission=entrant.digest,
         public=public,
         hidden=hidden,
-        gap_mm=gap_mm,
+        gap=gap,
         isolation=isolation,
         verified=isolation in VERIFIABLE,
         scoring=SCORING,

@@ -8,7 +8,7 @@ from typing import Final
 from colift.benchmark.bundle.content import Results, real_time
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.results.scores import Paired, ScoreTable
 from colift.benchmark.results.summary import summarise
 from colift.benchmark.statistics import Estimate, difference_of_means
 from colift.leaderboard.records.metrics import board_metrics
@@ -55,6 +55,7 @@ def hidden_scores(run: Run, human_human: ScoreTable) -> HiddenScores:
     """
     scores = ScoreTable.of(run)
     summary = summarise(run, scores, human_human)
+    better = scores.against(human_human).probability
     return HiddenScores(
         episodes=summary.episodes,
         failed=summary.failed,
@@ -62,14 +63,23 @@ def hidden_scores(run: Run, human_human: ScoreTable) -> HiddenScores:
         rmse_mm=summary.rmse_mm.rounded(PLACES),
         vs_human=_known(summary.vs_human).rounded(PLACES),
         real_time=real_time(summary.step_ms.p99, run.suite),
-        better_than_human=round(scores.against(human_human).probability, PLACES),
+        better_than_human=None if better is None else round(better, PLACES),
+        rougher=summary.rougher,
     )
 
 
-def gap(hidden: Run, public: Run) -> Estimate:
-    """Return the mean RMSE of the hidden run minus that of the public run [mm]."""
-    a, b = ScoreTable.of(hidden), ScoreTable.of(public)
-    return difference_of_means(a.rmse_mm, a.strata, b.rmse_mm, b.strata).rounded(PLACES)
+def gap(hidden: Paired, public: Paired) -> Estimate:
+    """Return the ratio to two people on hidden lifts, over that on public lifts.
+
+    Parameters
+    ----------
+    hidden, public
+        The policy's RMSE and that of the human-human baseline, on hidden and on public lifts.
+    """
+    difference = difference_of_means(
+        hidden.log_ratios, hidden.units, public.log_ratios, public.units
+    )
+    return difference.exponential().rounded(PLACES)
 
 
 def _failures(scores: ScoreTable) -> Counter[str]:

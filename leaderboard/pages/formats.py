@@ -36,8 +36,8 @@ def signed(value: float | None, places: int = 1) -> str:
 
 
 def interval(estimate: Estimate, places: int = 1) -> str:
-    """Return a 95 % interval as text; empty if it has no width."""
-    low, high = estimate.ci95
+    """Return a 95 % interval as text; empty if there is none, or it has no width."""
+    low, high = estimate.ends
     return f"{number(low, places)} to {number(high, places)}" if high > low else ""
 
 
@@ -87,7 +87,7 @@ def badge_text(standing: RankedRow) -> str:
     if standing.pending:
         return f"{mm} · being ranked"
     return f"{mm} · " + (
-        f"rank {standing.group}" if standing.ranked and standing.group else "not ranked"
+        f"rank {standing.rank}" if standing.ranked and standing.rank else "not ranked"
     )
 
 

@@ -9,8 +9,9 @@ from colift.base.errors import InputError
 from colift.base.extras import how_to_install
 from colift.benchmark.comparison.scatter.svg import svg
 from colift.benchmark.episode.drawn import error_words
-from colift.benchmark.episode.metric import drawn_series
+from colift.benchmark.episode.metric import drawn_series, gentle
 from colift.benchmark.rendering.page import templates
+from colift.benchmark.results.roughness import MEANING, ROUGHER, by_which
 from colift.leaderboard.pages.formats import FILTERS
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.table import NAVIGATION
@@ -72,15 +73,20 @@ def _of_season(season: SeasonInfo) -> dict[str, Any]:
     """Return the ``season``, and what templates show of its suite.
 
     ``metrics`` have columns beside the ``leading`` one, ``second`` is the first of them;
+    ``rough_by`` names the metrics by which a policy is rougher than two people, and
+    ``gentle_words`` those that are compared;
     ``error_words`` describe the drawn error; ``task`` is the :class:`.TaskView`.
     """
     leading, second = picture_axes(season.suite)
+    every = suite_metrics(season.suite)
     return {
         "season": season,
         "metrics": board_metrics(season.suite),
         "leading": leading,
         "second": second,
-        "error_words": error_words(drawn_series(suite_metrics(season.suite))),
+        "rough_by": functools.partial(by_which, metrics=every),
+        "gentle_words": by_which([each.name for each in gentle(every)], every),
+        "error_words": error_words(drawn_series(every)),
         "task": task_view(season.suite),
     }
 
@@ -109,4 +115,5 @@ def _environment() -> Environment:
     made.filters.update(FILTERS, svg=svg, prose=prose)
     made.filters["data"] = lambda content: Markup(script_json(content))
     made.globals.update(navigation=NAVIGATION, page="")
+    made.globals.update(rougher_words=ROUGHER, rougher_meaning=MEANING)
     return made

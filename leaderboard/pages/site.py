@@ -104,8 +104,9 @@ def _of_season(visit: Visit, info: SeasonInfo, parts: Collection[str]) -> Iterat
                 yield {"digest": digest}
     elif "behaviour" in parts:
         suite = season_suite(info)
-        for each in () if suite is None else suite.scenarios:
-            yield {"behaviour": each.behaviour, "subject": each.subject.name}
+        scenarios = () if suite is None else suite.scenarios
+        for behaviour in dict.fromkeys(each.behaviour for each in scenarios):
+            yield {"behaviour": behaviour}
     elif "number" in parts:
         total = len(visit.board.tables.read(info.name).ranking)
         for number in range(2, -(-total // ROWS) + 1):

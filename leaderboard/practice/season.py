@@ -31,8 +31,8 @@ NAME: Final = "practice"
 
 STANDARD: Final = "standard-v1"
 
-SUITES: Final = (STANDARD, "paper-v1")
-"""The suites that have a practice season."""
+SUITES: Final = ("robust-v1", STANDARD, "paper-v1")
+"""The suites that have a practice season, the leading one first."""
 
 
 def practice_season(suite: str) -> Season:

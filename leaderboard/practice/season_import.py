@@ -10,6 +10,7 @@ import json
 import logging
 import os
 import zipfile
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -24,7 +25,7 @@ from colift.leaderboard.practice.season import SUITES, practice_season
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, SeasonInfo
 from colift.leaderboard.storage.store import has_board
 
-FORMAT: Final = 2
+FORMAT: Final = 3
 
 log: Final = logging.getLogger(__name__)
 
@@ -44,6 +45,8 @@ class PlayedSeason:
     began_at: datetime
     human_human: ScoreTable
     """The human-human baseline on the hidden episodes."""
+    references: Mapping[str, ScoreTable]
+    """The references on the hidden episodes, by name."""
     played: tuple[PlayedEntry, ...]
     """In the order of their names."""
 
@@ -63,6 +66,9 @@ class PlayedSeason:
             suite_digest=content["suite_digest"],
             began_at=datetime.fromisoformat(content["began_at"]),
             human_human=ScoreTable.read(content["human_human"]),
+            references={
+                name: ScoreTable.read(each) for name, each in content["references"].items()
+            },
             played=played,
         )
 
@@ -76,6 +82,7 @@ class PlayedSeason:
             "secret": practice_season(self.suite).secret.hex(),
             "began_at": self.began_at.isoformat(),
             "human_human": self.human_human.plain(),
+            "references": {name: each.plain() for name, each in self.references.items()},
             "played": [
                 {"entry": each.entry.plain(), "hidden_rmse_mm": list(each.hidden_rmse_mm)}
                 for each in self.played
@@ -132,7 +139,12 @@ def practice_import(
         current=current,
         revealed=season.secret.hex(),
     )
-    return ImportedSeason(info=info, entries=found.played, human_human=found.human_human)
+    return ImportedSeason(
+        info=info,
+        entries=found.played,
+        human_human=found.human_human,
+        references=found.references,
+    )
 
 
 def _played(content: dict[str, Any], packed: zipfile.ZipFile) -> PlayedEntry:

@@ -24,7 +24,8 @@ class PublicScores:
     rmse_mm: Estimate
     """Mean RMSE [mm]."""
     vs_human: Estimate
-    """Ratio of the RMSE to the human-human baseline's: 1 is as good as a human partner."""
+    """Ratio of the RMSE to the human-human baseline's, geometric mean over the lifts: 1 is as good
+    as a human partner."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics of a board by name; see :func:`.board_metrics`."""
     step_ms_p50: float | None
@@ -52,11 +53,14 @@ class HiddenScores:
     rmse_mm: Estimate
     """Mean RMSE [mm]."""
     vs_human: Estimate
-    """Ratio of the RMSE to the human-human baseline's."""
+    """The same ratio as on the public episodes."""
     real_time: bool | None
     """The same as for the public episodes."""
-    better_than_human: float
-    """Probability that its mean RMSE on such episodes is below the human-human baseline's."""
+    better_than_human: float | None
+    """Probability that ``vs_human`` is below 1 with other people; None if all are of one person."""
+    rougher: tuple[str, ...] | None = None
+    """Names of the metrics by which it is rougher than two people; None in a row of a season in
+    which this was not known."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,9 +93,9 @@ class BoardRow:
     """Scores on the public episodes."""
     hidden: HiddenScores
     """Scores on the hidden episodes."""
-    gap_mm: Estimate
-    """Hidden minus public mean RMSE [mm]. Other people lift there, so the gap of an honest policy
-    is not zero, but similar for all policies."""
+    gap: Estimate
+    """``vs_human`` on the hidden episodes over that on the public ones: near 1 for an honest
+    policy, since each is relative to two people on the same lifts."""
     isolation: str
     """Isolation level of the policy."""
     verified: bool

@@ -11,7 +11,7 @@ trial, seed
 which                    ``best``, ``median`` or ``worst`` of its behaviour; null if not chosen
 failure                  reason of an early end, or null
 scores                   the metrics of the episode; null where there is none
-frame_s, period_s,       time of a frame and of a step, and the latency [s]
+frame_s, period_s,       time of a frame and of a step, and the latency [s]; null if that is drawn
 latency_s
 horizon                  frames that the whole episode has, failed or not
 human, robot, target     height of the human's end, of the robot's end and as intended by the human:
@@ -144,7 +144,7 @@ def replay_content(
         "scores": {name: _score(value) for name, value in episode.scores.items()},
         "frame_s": FRAME,
         "period_s": scenario.control_period,
-        "latency_s": scenario.latency,
+        "latency_s": scenario.latency if scenario.conditions is None else None,
         "horizon": ghost.horizon,
         "human": changes(trace.human_end),
         "robot": changes(trace.robot_end),

@@ -45,8 +45,9 @@ class SubmitterAnswer(Answer):
 class StandingAnswer(Answer):
     """A row, and its place in its season."""
 
-    group: int
-    """Rank group in its section over all hidden episodes, 1 the best; 0 is none."""
+    rank: int
+    """Rank in its section over all hidden episodes: 1 + the number of policies that are better
+    beyond chance; 0 is none."""
     pending: bool
     """Whether its rank is still being computed."""
     section: Section

@@ -18,7 +18,7 @@ from starlette.exceptions import HTTPException
 def _visit(request: Request) -> Visit:
     """Return what a page is made for; of a name that comes twice in a query, the last value."""
     service, query = service_state(request), request.query_params
-    names = ("q", "sort", "behaviour", "subject", "columns", "first")
+    names = ("q", "sort", "behaviour", "columns", "first")
     chosen = query.getlist("p")
     return Visit(
         board=service.board,

@@ -52,7 +52,7 @@ def get_standings(
 ) -> list[StandingAnswer]:
     """Return the rows of a season, best first; with the public lifts of a behaviour or subject.
 
-    Rank groups are always over all hidden lifts.
+    Ranks are always over all hidden lifts.
     """
     rows = _standings(service, season)
     if behaviour is None and subject is None:

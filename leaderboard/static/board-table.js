@@ -15,10 +15,10 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     off: tr.querySelector(".off"),
     index,
   }));
-  // Two people and the bounds, below the policies.
+  // Two people and the references, below the policies.
   const baselines = [...table.querySelectorAll(".baselines tr")].map((tr) => ({
     tr,
-    bound: tr.dataset.bound,
+    reference: tr.dataset.reference,
     stratum: Object.fromEntries(shown.map((name) => [name, tr.querySelector("td." + name)])),
     dot: tr.querySelector(".dot"),
     off: tr.querySelector(".off"),
@@ -36,37 +36,22 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
   const lines = (name) => [...document.querySelectorAll(`#backdrop .${name}, .board .scale .${name}`)].map((line) => ({
     line, at: line.getAttribute("x1") || line.getAttribute("x"),
   }));
-  const humanHumanLines = lines("human-human"), bounds = lines("bound");
+  const humanHumanLines = lines("human-human"), references = lines("reference");
   const bands = [...document.querySelectorAll("#backdrop .band")];
-  const [query, behaviour, subject, choice, status, more] =
-    ["q", "behaviour", "subject", "sort", "status", "more"].map(field);
+  const [query, behaviour, choice, status, more] =
+    ["q", "behaviour", "sort", "status", "more"].map(field);
   const whole = `${rows.length} ${rows.length === 1 ? "policy" : "policies"}, scored on hidden lifts.`;
-  const filters = { q: query, behaviour, subject, columns };
+  const filters = { q: query, behaviour, columns };
   let sort = "rank", order = rows, limit = 200;  // Rows that are laid out at once.
 
   const write = (value, places) => (value === null ? "–" : value.toFixed(places).replace("-", "−"));
   const at = (mm) => (100 * Math.min(mm / data.top, 1)).toFixed(2) + "%";
 
-  // Means over the public lifts of the chosen strata; missing values have no weight.
-  function mean(pairs) {
-    let sum = 0, weight = 0;
-    for (const [value, count] of pairs) if (value !== null) { sum += value * count; weight += count; }
-    return weight ? sum / weight : null;
-  }
-
+  // Means over the public lifts of the chosen behaviour.
   function scores(row, chosen) {
-    const strata = chosen.map((i) => [data.rows[row.index][i], data.strata[i]]);
-    if (strata.some(([stratum]) => !stratum))
-      return { rmse: null, ratio: null, metrics: names.map(() => ({ mean: null, missing: 0 })) };
-    const rmse = mean(strata.map(([stratum, [, , lifts]]) => [stratum[0], lifts]));
-    const humanHuman = mean(strata.map(([, [, , lifts, mm]]) => [mm, lifts]));
-    return {
-      rmse, humanHuman, ratio: humanHuman ? rmse / humanHuman : null,
-      metrics: names.map((_, i) => ({
-        mean: mean(strata.map(([stratum, [, , lifts]]) => [stratum[i + 1][0], lifts - stratum[i + 1][1]])),
-        missing: strata.reduce((sum, [stratum]) => sum + stratum[i + 1][1], 0),
-      })),
-    };
+    const [rmse, ratio, ...metrics] =
+      data.rows[row.index][chosen] || [null, null, ...names.map(() => [null, 0])];
+    return { rmse, ratio, metrics: metrics.map(([mean, missing]) => ({ mean, missing })) };
   }
 
   // The order of the whole table: the best first, then values that are missing in some lifts.
@@ -107,40 +92,35 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
     }
   }
 
-  function moveLines(humanHuman, bound) {
+  function moveLines(humanHuman, reference) {
     move(humanHumanLines, humanHuman);
-    move(bounds, bound);
+    move(references, reference);
     for (const band of bands) band.classList.toggle("away", humanHuman !== null);
   }
 
   function part() {
-    const chosen = [];
-    data.strata.forEach(([b, s], i) => {
-      if ((!behaviour.value || b === behaviour.value) && (!subject.value || s === subject.value)) chosen.push(i);
-    });
+    const chosen = data.behaviours.findIndex(([name]) => name === behaviour.value);
+    const humanHuman = data.behaviours[chosen][1];
     table.classList.add("part");
-    let humanHuman = null;
     for (const row of rows) {
       const found = scores(row, chosen);
-      humanHuman = humanHuman === null ? found.humanHuman ?? null : humanHuman;
       show(row.stratum.rmse, found.rmse, write(found.rmse, 1));
       show(row.stratum.ratio, found.ratio, write(found.ratio, 2));
       found.metrics.forEach((each, i) => show(row.stratum[names[i]], sortKey(data.metrics[i], each),
         write(each.mean, data.metrics[i].digits), each.mean !== null && each.missing ? "none in " + each.missing : ""));
       draw(row, found.rmse, at(found.rmse || 0));
     }
-    let causal = null;
+    let bestKnown = null;
     for (const row of baselines) {
-      const rmse = row.bound === undefined ? humanHuman :
-        mean(chosen.map((i) => [data.bounds[row.bound][i], data.strata[i][2]]));
+      const [rmse, ratio] = row.reference === undefined ?
+        [humanHuman, humanHuman === null ? null : 1] : data.references[row.reference][chosen];
       show(row.stratum.rmse, rmse, write(rmse, 1));
-      show(row.stratum.ratio, null, write(rmse === null || !humanHuman ? null : rmse / humanHuman, 2));
+      show(row.stratum.ratio, null, write(ratio, 2));
       for (const name of names) show(row.stratum[name], null, "–");
       draw(row, rmse, at(rmse || 0));
-      if (row.tr.dataset.causal !== undefined) causal = rmse;
+      if (row.tr.dataset.trained !== undefined) bestKnown = rmse;
     }
-    moveLines(humanHuman, causal);
-    return chosen;
+    moveLines(humanHuman, bestKnown);
   }
 
   function all() {
@@ -204,16 +184,14 @@ window.coliftTable = ({ table, body, field, form, button, columns, choose }, res
 
   function update() {
     choose();
-    const chosen = behaviour.value || subject.value ? part() : (all(), null);
+    (behaviour.value ? part : all)();
     arrange();
     const count = search();
-    if (chosen === null && count === rows.length) status.textContent = whole;
+    if (!behaviour.value && count === rows.length) status.textContent = whole;
     else {
-      const where = chosen === null ? "scored on hidden lifts" :
-        `means over the public lifts of ${behaviour.value ? behaviour.selectedOptions[0].text : "all behaviours"} ` +
-        `with ${subject.value || "all subjects"}; ranks and gaps are over all hidden lifts`;
-      status.textContent = `${count} of ${rows.length} policies, ${where}.` +
-        (chosen && !chosen.length ? " The suite has no such lifts." : "");
+      const where = behaviour.value ? `means over the public lifts of ${behaviour.selectedOptions[0].text}; ` +
+        "ranks and gaps are over all hidden lifts" : "scored on hidden lifts";
+      status.textContent = `${count} of ${rows.length} policies, ${where}.`;
     }
   }
 

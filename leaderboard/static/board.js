@@ -44,7 +44,7 @@
   // The service sorts and searches: a choice is sent at once.
   function ask() {
     columns.addEventListener("input", choose);
-    for (const id of ["behaviour", "subject", "sort"]) field(id).addEventListener("input", () => form.requestSubmit(field("go")));
+    for (const id of ["behaviour", "sort"]) field(id).addEventListener("input", () => form.requestSubmit(field("go")));
     const inputs = [...form.elements].filter((input) => input.matches("select, [type=search]"));
     form.addEventListener("submit", () => {  // Empty choices are left out of the address.
       for (const input of inputs) input.disabled = !input.value;

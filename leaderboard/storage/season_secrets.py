@@ -2,7 +2,8 @@
 
 import os
 import stat
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -88,19 +89,45 @@ class SeasonSecrets:
             If its file is damaged.
         """
         path = self.folder / "human_human.json"
-        try:
+        with _undamaged(path, "the next evaluation plays the human-human baseline again"):
             return ScoreTable.read(read_json(path)) if path.exists() else None
-        except DAMAGE as error:
-            raise DamagedError(
-                f"{path} is damaged ({error_text(error)}): restore it from a backup, or remove it, "
-                "and the next evaluation plays the human-human baseline again"
-            ) from error
 
     def keep_human_human(self, human_human: ScoreTable) -> None:
         """Write the human-human baseline."""
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
         write_json(self.folder / "human_human.json", human_human.plain(), mode=PRIVATE_FILE)
 
+    def known_references(self) -> dict[str, ScoreTable]:
+        """Return the references on the hidden episodes, by name; none until they are played.
+
+        Raises
+        ------
+        DamagedError
+            If their file is damaged.
+        """
+        path = self.folder / "references.json"
+        with _undamaged(path, "'colift season references' plays them again"):
+            found = read_json(path) if path.exists() else {}
+            return {name: ScoreTable.read(each) for name, each in found.items()}
+
+    def keep_references(self, references: Mapping[str, ScoreTable]) -> None:
+        """Write the references."""
+        self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
+        content = {name: each.plain() for name, each in references.items()}
+        write_json(self.folder / "references.json", content, mode=PRIVATE_FILE)
+
     @property
     def _secret(self) -> Path:
         return self.folder / "secret"
+
+
+@contextmanager
+def _undamaged(path: Path, again: str) -> Iterator[None]:
+    """Turn an error in a file into one that says how to replace it."""
+    try:
+        yield
+    except DAMAGE as error:
+        raise DamagedError(
+            f"{path} is damaged ({error_text(error)}): restore it from a backup, or remove it, "
+            f"and {again}"
+        ) from error

@@ -25,8 +25,7 @@ class Asked:
     sort: str = "rank"
     """Name of a column; with a minus before it, the other way round."""
     behaviour: str = ""
-    subject: str = ""
-    """The part of the public lifts of which numbers are shown; empty is all hidden lifts."""
+    """The behaviour of whose public lifts numbers are shown; empty is all hidden lifts."""
     columns: str = ""
     """Name of a set of columns."""
     first: int = 0
@@ -41,7 +40,6 @@ class Asked:
         q: str = "",
         sort: str = "",
         behaviour: str = "",
-        subject: str = "",
         columns: str = "",
         first: str = "",
         p: Sequence[str] = (),
@@ -51,7 +49,6 @@ class Asked:
             search=" ".join(q[:LONGEST].split()),
             sort=sort or "rank",
             behaviour=behaviour,
-            subject=subject,
             columns=columns if columns in ("behaviours", "about") else "",
             first=int(first) if first.isascii() and first.isdecimal() and len(first) < 10 else 0,
             chosen=tuple(dict.fromkeys(p))[:CHOSEN],
@@ -60,9 +57,7 @@ class Asked:
     @property
     def part(self) -> Part | None:
         """The part of the public lifts, if one was asked for."""
-        if not (self.behaviour or self.subject):
-            return None
-        return Part(behaviour=self.behaviour or None, subject=self.subject or None)
+        return Part(behaviour=self.behaviour) if self.behaviour else None
 
     @property
     def column(self) -> str:

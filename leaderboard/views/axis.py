@@ -40,7 +40,7 @@ def make_axis(estimates: Sequence[Estimate], marks: Sequence[float] = ()) -> Axi
         Other values that must be on the scale.
     """
     far = far_limit([each.mean for each in estimates])
-    highest = max([each.ci95[1] for each in estimates if each.mean <= far] + [*marks, 1.0])
+    highest = max([each.ends[1] for each in estimates if each.mean <= far] + [*marks, 1.0])
     step = round_step(highest, MOST)
     top = step * math.ceil(highest / step - 1e-9)
     return Axis(top=top, ticks=round_ticks(0.0, top, MOST))

@@ -5,16 +5,21 @@ from dataclasses import replace
 from typing import Any, Final
 from weakref import WeakKeyDictionary
 
-from colift.benchmark.results.strata import StratumScore, human_human_mean
+from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.strata import (
+    StratumScore,
+    human_human_mean,
+    mean_of_strata,
+    vs_human_mean,
+)
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
 from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.bounds import PublicBound, bounds_of
-from colift.leaderboard.views.lifts import Part, known
+from colift.leaderboard.views.lifts import Part, known, parts_of
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
     Content,
@@ -25,12 +30,13 @@ from colift.leaderboard.views.page import (
     ordered_seasons,
 )
 from colift.leaderboard.views.picture import PICTURED, pictures
+from colift.leaderboard.views.references import SeasonReference, references_of
 
-Reference = Mapping[str, Any]
-"""A line below the policies: the human-human baseline, or a ``bound``.
+Unranked = Mapping[str, Any]
+"""A line below the policies: the human-human baseline, or a ``reference``.
 
-``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` the RMSE over that of the human-human
-baseline; ``means`` are those of the other metrics, all None on a part of the lifts.
+``rmse_mm`` is an :class:`.Estimate` or None, ``ratio`` its ``vs_human``; ``means`` are those of the
+other metrics, all None on a part of the lifts.
 """
 
 
@@ -67,10 +73,10 @@ def board_page(
     strata = next((found for each in table.ranking if (found := strata_of(board, each.row))), ())
     behaviours = tuple(dict.fromkeys(stratum.behaviour for stratum in strata))
     lines = lines_of(board, table, asked, behaviours, most)
-    human_human, known_bounds = board.human_human(info.name), bounds_of(info)
+    human_human, known_references = board.human_human(info.name), references_of(board, info)
     events = board.events(season=info.name, newest=ROWS)
-    wide, narrow = pictures(table, human_human, known_bounds)
-    bounds = [_bound(each, asked.part) for each in known_bounds]
+    wide, narrow = pictures(table, human_human, known_references)
+    references = [_reference(each, asked.part) for each in known_references]
     shown = {each.standing.row.submission for each in lines.rows}
     axis, total, part = _axis(table, human_human), len(table.ranking), asked.part
     return {
@@ -91,14 +97,18 @@ def board_page(
         "slow": table.sections["not real-time"],
         "out": (*table.sections["unverified"], *table.sections["out"]),
         "people": _people(human_human, strata, part),
-        "bounds": bounds,
-        "causal": next(
-            (mm.mean for each in bounds if each["bound"].causal and (mm := each["rmse_mm"])), None
+        "references": references,
+        "best_known_mm": next(
+            (
+                mm.mean
+                for each in references
+                if each["reference"].trained and (mm := each["rmse_mm"])
+            ),
+            None,
         ),
         "human_human": human_human,
         "human_human_mm": {
-            each: human_human_mean(Part(behaviour=each, subject=None).of(strata))
-            for each in behaviours
+            each: human_human_mean(Part(behaviour=each).of(strata)) for each in behaviours
         },
         "axis": axis,
         "events": events,
@@ -108,14 +118,13 @@ def board_page(
             if each.submission is not None and each.submission in table.by_digest
         },
         "behaviours": behaviours,
-        "subjects": tuple(dict.fromkeys(stratum.subject for stratum in strata)),
         "empty_part": part is not None and not part.of(strata),
         "wide": wide,
         "narrow": narrow,
         "most": most,
         "most_pictured": PICTURED,
         "pictured": sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
-        "data": _drawn(info.suite, axis, lines.rows, strata, known_bounds),
+        "data": _drawn(info.suite, axis, lines.rows, strata, known_references),
     }
 
 
@@ -124,32 +133,36 @@ def _drawn(
     axis: Axis,
     rows: Sequence[RankedLine],
     strata: Sequence[StratumScore],
-    bounds: Sequence[PublicBound],
+    references: Sequence[SeasonReference],
 ) -> dict[str, Any]:
-    """Return the data that the page's script filters: each row's public lifts, by stratum.
+    """Return the data that the page's script shows: each row's public lifts, by behaviour.
 
-    ``strata`` has behaviour, subject, episodes and the human-human RMSE [mm]; ``rows`` has, for
-    each row of the table in its order and each stratum, the RMSE [mm], then for each of ``metrics``
-    the mean and the lifts without a value; ``bounds`` has each bound's RMSE [mm].
+    ``behaviours`` has their names and the human-human RMSE [mm]; ``rows`` has, for each row of the
+    table in its order and each behaviour, the RMSE [mm] and ``vs_human``, then for each of
+    ``metrics`` the mean and the lifts without a value; ``references`` has each reference's RMSE
+    [mm] and ``vs_human``, None where they are not known.
     """
-    metrics = board_metrics(suite)
+    metrics, parts = board_metrics(suite), parts_of(strata)[1:]
     return {
         "top": axis.top,
         "metrics": [
             {name: getattr(each, name) for name in ("name", "digits", "better", "missing")}
             for each in metrics
         ],
-        "strata": [[c.behaviour, c.subject, c.episodes, c.human_human_rmse_mm] for c in strata],
+        "behaviours": [[part.behaviour, human_human_mean(part.of(strata))] for part in parts],
         "rows": [
-            [_numbers(stratum, [metric.name for metric in metrics]) for stratum in row.strata]
+            [
+                _numbers(part.of(row.strata), [metric.name for metric in metrics])
+                for part in (parts if row.strata else ())
+            ]
             for row in rows
         ],
-        "bounds": [
+        "references": [
             [
-                round(each.scores.by_stratum[stratum.behaviour, stratum.subject].mean, 4)
-                for stratum in strata
+                [_rounded(value) for value in each.numbers.get(behaviour, (None, None))]
+                for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata)
             ]
-            for each in bounds
+            for each in references
         ],
     }
 
@@ -157,46 +170,55 @@ def _drawn(
 _axes: WeakKeyDictionary[Table, Axis] = WeakKeyDictionary()
 
 
-def _axis(table: Table, human_human: HumanHumanScores | None) -> Axis:
+def _axis(table: Table, human_human: UnrankedScores | None) -> Axis:
     """Return the scale of all pages of a table."""
     if table not in _axes:
         hidden = [each.row.hidden.rmse_mm for each in table.ranking]
-        marks = () if human_human is None else (human_human.rmse_mm.ci95[1],)
+        marks = () if human_human is None else (human_human.rmse_mm.ends[1],)
         _axes[table] = make_axis(hidden, marks)
     return _axes[table]
 
 
 def _people(
-    human_human: HumanHumanScores | None, strata: Sequence[StratumScore], part: Part | None
-) -> Reference | None:
+    human_human: UnrankedScores | None, strata: Sequence[StratumScore], part: Part | None
+) -> Unranked | None:
     """Return the line of the human-human baseline."""
     if human_human is None:
         return None
     if part is None:
         rmse: Estimate | None = human_human.rmse_mm
-        return {"bound": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
+        return {"reference": None, "rmse_mm": rmse, "ratio": 1.0, "means": human_human.means}
     mean = human_human_mean(part.of(strata))
     rmse, ratio = (None, None) if mean is None else (known(mean), 1.0)
     means = dict.fromkeys(human_human.means)
-    return {"bound": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
+    return {"reference": None, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _bound(bound: PublicBound, part: Part | None) -> Reference:
-    tables = bound.scores, bound.human_human
+def _reference(reference: SeasonReference, part: Part | None) -> Unranked:
     if part is None:
-        mine, people = tables
-        whole = mine.mean / people.mean
-        return {"bound": bound, "rmse_mm": mine.error, "ratio": whole, "means": bound.means}
-    mine, people = (each.part(part.behaviour, part.subject) for each in tables)
-    rmse, ratio = (known(mine.mean), mine.mean / people.mean) if mine.strata else (None, None)
-    means = dict.fromkeys(bound.means)
-    return {"bound": bound, "rmse_mm": rmse, "ratio": ratio, "means": means}
+        hidden = reference.hidden
+        return {
+            "reference": reference,
+            "rmse_mm": hidden.rmse_mm,
+            "ratio": hidden.ratio,
+            "means": hidden.means,
+        }
+    mean, ratio = reference.numbers.get(part.behaviour or "", (None, None))
+    rmse = None if mean is None else known(mean)
+    means = dict.fromkeys(reference.means)
+    return {"reference": reference, "rmse_mm": rmse, "ratio": ratio, "means": means}
 
 
-def _numbers(stratum: StratumScore, metrics: Sequence[str]) -> list[float | list[float | None]]:
-    found = [stratum.metrics[name] for name in metrics]
-    means = [[None if each.mean is None else round(each.mean, 4), each.missing] for each in found]
-    return [round(stratum.rmse_mm, 4), *means]
+def _numbers(
+    strata: Sequence[StratumScore], metrics: Sequence[str]
+) -> list[float | list[float | None] | None]:
+    rmse, *found = (mean_of_strata(strata, name) for name in (LEADING, *metrics))
+    means = ([_rounded(each.mean), each.missing] for each in found)
+    return [_rounded(rmse.mean), _rounded(vs_human_mean(strata)), *means]
+
+
+def _rounded(mean: float | None) -> float | None:
+    return None if mean is None else round(mean, 4)
 
 
 def _shown(visit: Visit, season: str | None = None) -> Content:

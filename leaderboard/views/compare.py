@@ -10,14 +10,13 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
-from colift.benchmark.results.strata import StratumScore, human_human_mean
+from colift.benchmark.results.strata import human_human_mean, vs_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
 from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
-    Part,
     part_estimate,
     parts_of,
     public_lifts,
@@ -41,6 +40,8 @@ class Column:
 
     standing: RankedRow
     rmse_mm: tuple[Estimate, ...]
+    ratios: tuple[float | None, ...]
+    """``vs_human`` on each part."""
 
 
 def compare_page(visit: Visit, season: str) -> Content:
@@ -71,9 +72,13 @@ def compare_page(visit: Visit, season: str) -> Content:
     bundles = {digest: board.bundle(info.name, digest) for digest in chosen}
     runs = {digest: path for digest, path in bundles.items() if path is not None}
     strata = next((stratum_scores(path) for path in runs.values()), ())
-    parts = _parts(strata)
+    parts = parts_of(strata)
     columns = tuple(
-        Column(standing=ranked[digest], rmse_mm=tuple(part_estimate(path, part) for part in parts))
+        Column(
+            standing=ranked[digest],
+            rmse_mm=tuple(part_estimate(path, part) for part in parts),
+            ratios=tuple(vs_human_mean(part.of(stratum_scores(path))) for part in parts),
+        )
         for digest, path in runs.items()
     )
     human_human = tuple(human_human_mean(part.of(strata)) for part in parts)
@@ -167,12 +172,6 @@ def _compared(replay: Mapping[str, Any]) -> tuple[Sequence[int], Sequence[int]]:
     return replay["robot"], goals[0] if goals else replay["human"]
 
 
-def _parts(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
-    """Return all lifts, each behaviour and each subject; strata are for the policies' own pages."""
-    found = parts_of(strata)
-    return tuple(part for part in found if part.behaviour is None or part.subject is None)
-
-
 @functools.lru_cache(maxsize=64)
 def _differences(
     bundles: tuple[tuple[Path, tuple[int, int]], ...],
@@ -184,7 +183,7 @@ def _differences(
         others = runs[i + 1 :]
         same = [other for other in others if one.strata and other.strata == one.strata]
         errors = [other.rmse_mm for other in same]
-        ps = iter(permutation_ps_against(one.rmse_mm, errors) if same else ())
+        ps = iter(permutation_ps_against(one.rmse_mm, errors, one.units) if same else ())
         for other in others:
             found.append(one.against(other).tested(next(ps)) if other in same else None)
     return tuple(found)

@@ -30,11 +30,11 @@ def standings_csv(board: Board, season: str | None = None) -> str:
 
 
 def standings_plain(board: Board, season: str) -> list[dict[str, Any]]:
-    """Return all rows as JSON: with rank group, time, submitter and events."""
+    """Return all rows as JSON: with rank, time, submitter and events."""
     return [
         {
             "section": each.section,
-            "group": each.group,
+            "rank": each.rank,
             "at": each.at.isoformat(),
             "submitter": each.submitter,
             "row": each.row.plain(),

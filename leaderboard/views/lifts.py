@@ -1,11 +1,11 @@
-"""Public lifts of a bundle, by part: behaviour, subject or stratum.
+"""Public lifts of a bundle, by behaviour.
 
 A bundle is read only once: it never changes, unless a rescore replaces it by another one.
 """
 
 import csv
 import functools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -88,54 +88,38 @@ def is_whole(bundle: Path | None) -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class Part:
-    """Some of the public lifts."""
+    """The public lifts of a behaviour, or all of them."""
 
     behaviour: str | None
-    """None: all of them."""
-    subject: str | None
     """None: all of them."""
 
     def of(self, strata: Iterable[StratumScore]) -> list[StratumScore]:
         """Return the strata that belong to it."""
-        return [
-            each
-            for each in strata
-            if self.behaviour in (None, each.behaviour) and self.subject in (None, each.subject)
-        ]
+        return [each for each in strata if self.behaviour in (None, each.behaviour)]
 
     @property
     def whole(self) -> bool:
         """Whether it is all lifts."""
-        return self.behaviour is None and self.subject is None
-
-    @property
-    def of_subject(self) -> bool:
-        """Whether it is all lifts with a subject."""
-        return self.behaviour is None and self.subject is not None
+        return self.behaviour is None
 
 
-def parts_of(strata: Sequence[StratumScore]) -> Iterator[Part]:
-    """Yield all lifts, then each behaviour followed by its strata, then each subject."""
-    yield Part(behaviour=None, subject=None)
-    for behaviour in dict.fromkeys(stratum.behaviour for stratum in strata):
-        yield Part(behaviour=behaviour, subject=None)
-        mine = [stratum.subject for stratum in strata if stratum.behaviour == behaviour]
-        yield from (Part(behaviour=behaviour, subject=subject) for subject in mine)
-    for subject in dict.fromkeys(stratum.subject for stratum in strata):
-        yield Part(behaviour=None, subject=subject)
+def parts_of(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
+    """Return all lifts, then each behaviour."""
+    behaviours = dict.fromkeys(stratum.behaviour for stratum in strata)
+    return tuple(Part(behaviour=each) for each in (None, *behaviours))
 
 
 def part_estimate(bundle: Path, part: Part) -> Estimate:
     """Return the mean RMSE [mm] of a bundle over a part, with its 95 % interval.
 
-    The interval has no width if the bundle has only results.
+    There is no interval if the bundle has only results, or the part is of one person.
     """
     return _part_estimate(bundle, version(bundle), part)
 
 
 @functools.lru_cache(maxsize=4096)
 def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
-    scores = public_scores(bundle).part(part.behaviour, part.subject)
+    scores = public_scores(bundle).part(part.behaviour)
     if scores.strata:
         return scores.error
     return known(mean_of_strata(part.of(stratum_scores(bundle))).mean or 0.0)
@@ -143,4 +127,4 @@ def _part_estimate(bundle: Path, _: tuple[int, int], part: Part) -> Estimate:
 
 def known(mean: float) -> Estimate:
     """Return a mean without a known interval."""
-    return Estimate(mean=mean, ci95=(mean, mean))
+    return Estimate(mean=mean, ci95=None)

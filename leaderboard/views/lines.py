@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from colift.benchmark.results.strata import StratumScore, human_human_mean, mean_of_strata
+from colift.benchmark.results.strata import StratumScore, mean_of_strata, vs_human_mean
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import RankedRow
@@ -23,7 +23,7 @@ class Scores:
     rmse_mm: Estimate | None
     """None if the public run is missing, or has no such lifts."""
     ratio: float | None
-    """RMSE over that of the human-human baseline."""
+    """``vs_human`` on these lifts."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics of a board, always on public lifts."""
 
@@ -39,13 +39,13 @@ class RankedLine:
     """Its public lifts, stratum by stratum; nothing if its bundle is gone."""
     scores: Scores
     shared: int
-    """Number of policies in its rank group."""
+    """Number of policies of its rank."""
     leads: bool
-    """Whether it is the first of its group."""
+    """Whether it is the first of its rank."""
 
     def mean_mm(self, behaviour: str) -> float | None:
         """Return the mean RMSE [mm] on the public lifts of a behaviour, if its bundle is there."""
-        return mean_of_strata(Part(behaviour=behaviour, subject=None).of(self.strata)).mean
+        return mean_of_strata(Part(behaviour=behaviour).of(self.strata)).mean
 
     @property
     def text(self) -> str:
@@ -118,8 +118,8 @@ def _line(board: Board, table: Table, position: int, asked: Asked) -> RankedLine
         index=position,
         strata=strata,
         scores=_scores(each.row, strata, asked.part),
-        shared=1 if each.pending else table.sizes[each.group],
-        leads=not each.pending and (before is None or before.group != each.group),
+        shared=1 if each.pending else table.sizes[each.rank],
+        leads=not each.pending and (before is None or before.rank != each.rank),
     )
 
 
@@ -130,10 +130,10 @@ def _scores(row: BoardRow, strata: Sequence[StratumScore], part: Part | None) ->
             rmse_mm=hidden.rmse_mm, ratio=hidden.vs_human.mean, metrics=row.public.metrics
         )
     some = part.of(strata)
-    rmse, human_human = mean_of_strata(some).mean, human_human_mean(some)
+    rmse = mean_of_strata(some).mean
     return Scores(
         rmse_mm=None if rmse is None else known(rmse),
-        ratio=rmse / human_human if rmse is not None and human_human else None,
+        ratio=vs_human_mean(some),
         metrics={each.name: mean_of_strata(some, each.name) for each in board_metrics(row.suite)},
     )
 
@@ -144,7 +144,7 @@ Key = float | str | None
 _OF_ROW: Final[Mapping[str, Callable[[RankedRow], Key]]] = {
     "name": lambda each: each.row.name.lower(),
     "step": lambda each: each.row.public.step_ms_p50,
-    "gap": lambda each: each.row.gap_mm.mean,
+    "gap": lambda each: each.row.gap.mean,
     "learned": lambda each: float(each.row.learned),
     "licence": lambda each: each.row.licence.lower(),
     "at": lambda each: -each.at.timestamp(),
@@ -163,7 +163,7 @@ def _sorted(
         if name in _OF_ROW:
             return _OF_ROW[name](each)
         if name in columns:
-            part = Part(behaviour=columns[name], subject=None)
+            part = Part(behaviour=columns[name])
             return mean_of_strata(part.of(strata_of(board, each.row))).mean
         strata = () if asked.part is None else strata_of(board, each.row)
         scores = _scores(each.row, strata, asked.part)

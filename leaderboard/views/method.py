@@ -7,21 +7,19 @@ from colift.agents.sandbox.protocol import LIMITS
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.records.season import SeasonInfo
-from colift.leaderboard.views.bounds import bounds_of
 from colift.leaderboard.views.page import Content, Page, Visit, find_season, ordered_seasons
+from colift.leaderboard.views.references import references_of
 
 
 def _method(visit: Visit) -> Content:
     """Return the numbers of the current season, and the isolation levels, strongest first."""
     season = find_season(visit.board)
-    bounds = bounds_of(season)
     return {
         "season": season,
         "seasons": ordered_seasons(visit.board),
         "lifts": public_episodes(visit.board, season),
         "human_human": visit.board.human_human(season.name),
-        "causal": any(each.causal for each in bounds),
-        "oracle": any(not each.causal for each in bounds),
+        "references": references_of(visit.board, season),
         "failed_frame_mm": FAILED_FRAME_MM,
         "limits": LIMITS,
         "isolation": LEVELS,

@@ -8,11 +8,11 @@ from weakref import WeakKeyDictionary
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE, ScatterScene, make_scene
 from colift.benchmark.episode.metric import Metric
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import picture_axes
 from colift.leaderboard.records.row import BoardRow
-from colift.leaderboard.views.bounds import PublicBound
+from colift.leaderboard.views.references import SeasonReference
 
 PICTURED: Final = 100
 """Number of policies, from the best, in a picture, beside those on the front."""
@@ -23,21 +23,23 @@ Pictures = tuple[ScatterScene | None, ScatterScene | None]
 _drawing: Final = threading.Lock()
 """Held while pictures are drawn, so that the readers of a new table do not all draw them."""
 
-_made: WeakKeyDictionary[Table, Pictures] = WeakKeyDictionary()
+_made: WeakKeyDictionary[Table, tuple[list[UnrankedScores], Pictures]] = WeakKeyDictionary()
+"""The pictures of a table, with the scores of the references in them."""
 
 
 def pictures(
-    table: Table, human_human: HumanHumanScores | None, bounds: Sequence[PublicBound]
+    table: Table, human_human: UnrankedScores | None, references: Sequence[SeasonReference]
 ) -> Pictures:
-    """Return the pictures of a table; they are drawn once."""
+    """Return the pictures of a table; they are drawn once, and when references are played."""
+    beside = [each.hidden for each in references]
     with _drawing:
-        if table not in _made:
+        if table not in _made or _made[table][0] != beside:
             rows = _pictured([each.row for each in table.ranking])
             wide, narrow = (
-                make_picture(rows, human_human, bounds, size=size) for size in (WIDE, NARROW)
+                make_picture(rows, human_human, references, size=size) for size in (WIDE, NARROW)
             )
-            _made[table] = wide, narrow
-        return _made[table]
+            _made[table] = beside, (wide, narrow)
+        return _made[table][1]
 
 
 def _pictured(rows: Sequence[BoardRow]) -> list[BoardRow]:
@@ -62,8 +64,8 @@ def _point(row: BoardRow, second: Metric) -> FrontPoint:
 
 def make_picture(
     rows: Sequence[BoardRow],
-    human_human: HumanHumanScores | None,
-    bounds: Sequence[PublicBound] = (),
+    human_human: UnrankedScores | None,
+    references: Sequence[SeasonReference] = (),
     *,
     size: tuple[int, int],
 ) -> ScatterScene | None:
@@ -76,8 +78,8 @@ def make_picture(
         metric on the public ones.
     human_human
         The human-human baseline on the hidden lifts.
-    bounds
-        Those of the public lifts.
+    references
+        Those of the season, on the hidden lifts.
     size
         Width and height [px].
     """
@@ -91,7 +93,7 @@ def make_picture(
         )
         for name, each, kind in (
             *(() if human_human is None else [("two people", human_human, "baseline")]),
-            *((bound.name, bound, "bound") for bound in bounds),
+            *((reference.name, reference, "reference") for reference in references),
         )
     ]
     axis = f"← {leading.words.praise[1]} · {leading.symbol} on the hidden lifts, {leading.unit}"

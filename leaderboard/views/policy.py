@@ -6,7 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.benchmark.results.strata import human_human_mean, mean_of_strata
+from colift.benchmark.results.strata import (
+    Spread,
+    human_human_mean,
+    mean_of_strata,
+    spread_over_people,
+    vs_human_mean,
+)
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.client import API
 from colift.leaderboard.core.board import Board
@@ -39,18 +45,22 @@ class PartScore:
     rmse_mm: Estimate
     human_human_mm: float | None
     """The human-human baseline's mean RMSE [mm]."""
+    ratio: float | None
+    """The RMSE over that of two people; see :func:`.vs_human_mean`."""
     blend_mm: float | None
     """The mean RMSE of ``blend`` [mm], if it is on the board."""
+    spread: Spread | None
+    """How the RMSE differs from person to person; None without lifts."""
 
 
 def policy_page(visit: Visit, season: str, digest: str) -> Content:
     """Return the row of a submission and its neighbours, or the reason for having none.
 
-    ``shared`` is the number of policies in its rank group, ``ranked`` that of those it is ranked
-    with. ``parts`` are all lifts, each behaviour with its ``strata``, and each subject. The
-    ``failures`` are reasons with their public lifts, the most frequent first; ``worst`` is the lift
-    of each behaviour with the largest error, whose replay is shown; ``history`` are all entries of
-    the same name, in all seasons, newest first.
+    ``shared`` is the number of policies of its rank, ``ranked`` that of those it is ranked
+    with. ``parts`` are all lifts and each behaviour. The ``failures`` are reasons with their public
+    lifts, the most frequent first; ``worst`` is the lift of each behaviour with the largest error,
+    whose replay is shown; ``history`` are all entries of the same name, in all seasons, newest
+    first.
     """
     board = visit.board
     info, mine = find_season(board, season), board.tables.row(season, digest)
@@ -80,9 +90,6 @@ def policy_page(visit: Visit, season: str, digest: str) -> Content:
         "shared": ranks.shared(digest),
         "ranked": len(fellows),
         "parts": parts,
-        "behaviours": [each for each in parts if each.part.subject is None],
-        "subjects": [each for each in parts if each.part.of_subject],
-        "strata": {(each.part.behaviour, each.part.subject): each for each in parts},
         "has_blend": any(each.blend_mm is not None for each in parts),
         "axis": make_axis([each.rmse_mm for each in parts], marks),
         "never_lifted": public.failed == public.episodes,
@@ -145,7 +152,9 @@ def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
                 failed=sum(stratum.failed for stratum in some),
                 rmse_mm=part_estimate(bundle, part),
                 human_human_mm=human_human_mean(some),
+                ratio=vs_human_mean(some),
                 blend_mm=mean_of_strata(part.of(others)).mean,
+                spread=spread_over_people(some) if some else None,
             )
         )
     return tuple(found)

@@ -1,6 +1,6 @@
 """Lists of the available policies, suites and behaviours."""
 
-from colift.base.registry import HUMANS, POLICIES, SUITES, entries, playing
+from colift.base.registry import HUMANS, POLICIES, entries, playing, suite_names
 
 
 def list_policies(task: str | None = None) -> list[str]:
@@ -22,4 +22,4 @@ def list_humans() -> list[str]:
 
 def list_suites() -> list[str]:
     """Return the names of the suites that :func:`.evaluate` takes."""
-    return list(entries(SUITES))
+    return list(suite_names())

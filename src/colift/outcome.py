@@ -35,13 +35,13 @@ class Evaluation:
         return self.results.summary.rmse_mm.mean
 
     @property
-    def rmse_mm_ci95(self) -> tuple[float, float]:
-        """95 % confidence interval of :attr:`rmse_mm` [mm]."""
+    def rmse_mm_ci95(self) -> tuple[float, float] | None:
+        """95 % confidence interval of :attr:`rmse_mm` [mm]; None with lifts of one person alone."""
         return self.results.summary.rmse_mm.ci95
 
     @property
     def vs_human(self) -> float:
-        """:attr:`rmse_mm` divided by that of the human-human baseline; below 1 is better."""
+        """RMSE over that of the human-human baseline, geometric mean; below 1 is better."""
         ratio = self.results.summary.vs_human
         assert ratio is not None  # Evaluations always have the baselines.
         return ratio.mean
@@ -81,8 +81,9 @@ class Evaluation:
         console = Console(
             file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
         )
-        lines = (results_text(self.results), *reported_failures(self.run))
-        show(results_table(self.results, self.run.suite.metrics), *lines, console=console)
+        metrics = self.run.suite.metrics
+        lines = (results_text(self.results, metrics), *reported_failures(self.run))
+        show(results_table(self.results, metrics), *lines, console=console)
         assert isinstance(console.file, io.StringIO)
         return console.file.getvalue().strip("\n")
 

@@ -1,5 +1,7 @@
 """Golden traces: every policy on a few lifts of its task, and two people, bit for bit.
 
+The other suites of a task are there with some policies: all suites are frozen in 0.2.0.
+
 A change that is meant to change no number leaves them as they are. One that is meant to writes
 them anew: ``COLIFT_GOLDEN=write pytest tests/benchmark/test_golden.py``. They are the same on each
 Python, with each NumPy and each PyBullet; on another processor they are, or the test is skipped.
@@ -23,22 +25,34 @@ from colift.benchmark.suites.suite import make_suite
 FILE = Path(os.environ.get("COLIFT_GOLDEN_FILE") or Path(__file__).with_name("golden.json"))
 SHIPPED = {"binaries", "linear_algebra", "numpy", "pybullet", "python"}
 """What comes with a Python and its packages, and has changed no bit."""
-SUITES = {"level": "quick-v1", "agree": "agree-v1", "ball": "ball-v1", "intent": "intent-v1"}
+SUITES = {"quick-v1": "level", "agree-v1": "agree", "ball-v1": "ball", "intent-v1": "intent"}
+"""The suites in which every policy of a task plays, and this task."""
+
+OTHERS = {"paper-v1": 2, "robust-v1": 41, "standard-v1": 31}
+"""The other suites, and the distance of the lifts that are played."""
+
+SOME = ("copy", "blend", "learned")
+"""The policies that play them."""
 
 
-def players(task):
-    """Return the policies that play a task here: of the other tasks, those that can do no other."""
+def players(suite):
+    """Return the policies that play a suite here: of the tasks, those that can do no other."""
+    if suite in OTHERS:
+        return [HUMAN_HUMAN, *SOME]
+    task = SUITES[suite]
     level = {*own_policies("level")} - {"copy"} if task != "level" else set()
     return [HUMAN_HUMAN, *(name for name in own_policies(task) if name not in level)]
 
 
-NAMES = [f"{task} {name}" for task in SUITES for name in players(task)]
+NAMES = [f"{suite} {name}" for suite in (*SUITES, *OTHERS) for name in players(suite)]
 
 
-def lifts(task):
-    """Return suites of a task that together have several behaviours, subjects and timings."""
-    suite = make_suite(SUITES[task])
-    if task == "level":
+def lifts(name):
+    """Return suites of some lifts that together have several behaviours, people and timings."""
+    suite = make_suite(name)
+    if name in OTHERS:
+        return (replace(suite, scenarios=suite.scenarios[:: OTHERS[name]], seeds=suite.seeds[:1]),)
+    if SUITES[name] == "level":
         return suite, replace(suite, seeds=(3,)).with_timing(0.15, 0.05)
     scenarios = suite.scenarios[::8]
     return (
@@ -49,10 +63,10 @@ def lifts(task):
 
 def played(text):
     """Return a digest for each lift: of its trace, and of its scores."""
-    task, name = text.split()
+    chosen, name = text.split()
     runs = [
         human_human_run(suite) if name == HUMAN_HUMAN else run_suite(PolicySpec(text=name), suite)
-        for suite in lifts(task)
+        for suite in lifts(chosen)
     ]
     return {
         f"{each.behaviour} {each.subject} {each.seed}": [

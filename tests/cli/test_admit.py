@@ -1,17 +1,24 @@
 """``colift admit`` as a user meets it: what it refuses, and what it prints of a small suite."""
 
+import json
+
 import pytest
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["intent-v1", "--pairs", "1"], "--pairs must be 2 to 20, or 0 for none; got 1"),
+        (["intent-v1", "--pairs", "2"], "--pairs must be 3 to 20, or 0 for none; got 2"),
         (
-            ["standard-v1", "--pairs", "2"],
+            ["standard-v1", "--pairs", "3"],
             "pairs can be trained for tasks with touch; 'level' has none",
         ),
         (["nothing"], "unknown suite 'nothing'"),
+        (["ball-v1", "--people", "2"], "admission needs 3 people or more, got 2"),
+        (["ball-v1", "--tune", "--people", "3"], "--tune takes neither --pairs nor --people"),
+        (["ball-v1", "--policy", "ball_calm"], "--policy is for --tune"),
+        (["ball-v1", "--tune", "--policy", "copy"], "'copy' cannot be tuned; can be: ball_adm"),
+        (["standard-v1", "--tune"], "'level' has no policies of its own"),
     ],
 )
 def test_what_it_cannot_do_is_refused_in_one_line(colift, arguments, words):
@@ -19,3 +26,20 @@ def test_what_it_cannot_do_is_refused_in_one_line(colift, arguments, words):
     assert done.returncode == 2
     assert words in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.slow
+def test_the_control_stands_beside_a_suite_and_fails(colift):
+    done = colift("admit", "ball-v1", "--people", "3", "--json")
+    found = json.loads(done.stdout)
+    assert [each["letter"] for each in found["criteria"]] == list("abcdef")
+    assert found["control"]["suite"] == "standard-v1 (3 people)"
+    verdicts = {each["letter"]: each["passed"] for each in found["control"]["criteria"]}
+    assert verdicts["a"] is False
+    assert verdicts["d"] is verdicts["e"] is None
+    assert done.returncode == (0 if found["passed"] else 1)
+    partner, _ = found["claims"].values()
+    assert partner is found["passed"]
+    for each in found["criteria"]:
+        if each["passed"] is not None:
+            assert each["ci95"][0] <= each["figure"] <= each["ci95"][1]

@@ -23,11 +23,11 @@ def test_what_is_learned_can_be_run_and_says_where_it_came_from(colift, tmp_path
 
 
 @pytest.mark.slow
-def test_bounds_tell_claims_and_whether_they_hold(colift):
-    code, told, errors = colift("bounds", "--people", "1", "--each", "1", "--jobs", "1")
+def test_references_tell_claims_and_whether_they_hold(colift):
+    code, told, errors = colift("references", "--people", "1", "--each", "1", "--jobs", "1")
     assert code in (0, 1)
     assert errors == ""
-    for name in ("anticipate", "causal_bound", "oracle", "human-human baseline", "Claims"):
+    for name in ("anticipate", "best known (trained)", "oracle", "human-human baseline", "Claims"):
         assert name in told
     assert ("NO" in told) == (code == 1)
 
@@ -35,7 +35,7 @@ def test_bounds_tell_claims_and_whether_they_hold(colift):
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (("bounds", "--seed", "5"), "seeds of new people start at 200000"),
+        (("references", "--seed", "5"), "seeds of new people start at 200000"),
         (("sweep", "--out", "sweep.txt"), "--out must end in .png"),
         (("learn", "anticipate", "--seed", "5", "--lifts", "1"), "seeds for learning are 100000"),
         (("run", "oracle"), "unknown policy 'oracle'"),
@@ -49,7 +49,7 @@ def test_what_a_user_gets_wrong_is_told_in_a_line(colift, arguments, told):
     assert errors.count("\n") == 1
 
 
-@pytest.mark.parametrize("arguments", [("bounds", "--people", "0"), ("ablate", "--each", "0")])
+@pytest.mark.parametrize("arguments", [("references", "--people", "0"), ("ablate", "--each", "0")])
 def test_numbers_of_people_and_lifts_are_positive(colift, arguments):
     pytest.importorskip("sklearn")
     code, _, errors = colift(*arguments)

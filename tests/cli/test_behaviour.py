@@ -50,7 +50,7 @@ def test_a_registered_behaviour_is_listed_run_and_verified(lab):
     assert [(each["behaviour"], each["subject"]) for each in content["groups"]] == [
         (behaviour, subject)
         for behaviour in ("shy", "pause")
-        for subject in ("S1", "S2", "S3", "S5")
+        for subject in ("draw-1", "draw-2", "draw-3")
     ]
     assert "bundle is verified" in lab("verify", "bundle", "--jobs", "1")
 

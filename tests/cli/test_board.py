@@ -25,7 +25,7 @@ def filled(board):
     for name, mean in ((LONG, 9.8), ("blend", 16.27), ("cheat", 1.2)):
         add(board, name, mean)
     board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
-    strata = (("pause", "S1"),) * 4
+    strata = tuple(("pause", f"S{i}") for i in range(1, 5))
     human_human = ScoreTable(
         strata=strata,
         values={"rmse_mm": (9.9, 10.5, 11.0, 10.8)},
@@ -51,7 +51,7 @@ def test_the_table_fits_and_cuts_only_names(filled, width):
     rows = [line.split() for line in lines if " to " in line]
     assert [row[0] for row in rows] == ["1", "two", "2", "out"]
     assert rows[0][2:6] == ["9.80", "8.80", "to", "10.80"]
-    assert rows[1][2:4] == ["10.55", "9.90"]
+    assert rows[1][2:6] == ["10.55", "9.81", "to", "11.34"]
     assert ("0.200" in " ".join(rows[2])) == (width == 120)
     assert (rows[2][-1] == "yes") == (width == 120)
     assert all("0.30" in row for row in rows if row[0] != "two")
@@ -88,7 +88,7 @@ def test_the_command_shows_what_happened_and_what_waits(filled, colift, tmp_path
 
 def test_json_is_alone_on_stdout(filled, colift):
     told = json.loads(colift("board", "--board", "board", "--json").stdout)
-    assert [(each["group"], each["row"]["name"]) for each in told["rows"]] == [
+    assert [(each["rank"], each["row"]["name"]) for each in told["rows"]] == [
         (1, LONG),
         (2, "blend"),
         (0, "cheat"),

@@ -66,7 +66,7 @@ def test_seeds_latency_and_control_period_make_other_episodes(colift):
     usual = json.loads(
         colift("run", "copy", "--suite", "quick-v1", "--seeds", "40:41", "--json").stdout
     )
-    assert content["summary"]["episodes"] == 4
+    assert content["summary"]["episodes"] == 12
     assert content["suite_digest"] != usual["suite_digest"]
     assert content["summary"]["rmse_mm"]["mean"] < usual["summary"]["rmse_mm"]["mean"]
 
@@ -91,7 +91,7 @@ def test_list_names_everything(colift):
     [
         (["run", "nonesuch"], "unknown policy 'nonesuch' ('colift list' lists all names)"),
         (["run", "pose"], "did you mean pose_admittance or pose_bayes or pose_learned?"),
-        (["run", "copy", "--suite", "nonesuch"], "paper-v1, quick-v1, standard-v1"),
+        (["run", "copy", "--suite", "nonesuch"], "paper-v1, quick-v1, robust-v1, standard-v1"),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
         (["run", "copy", "--seeds=-1:3"], "A:B"),

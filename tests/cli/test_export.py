@@ -20,12 +20,12 @@ def test_a_bundle_is_exported_in_both_formats(colift, bundle, tmp_path):
         done = colift("export", "bundle", "--to", form, "--view", view, "--out", form)
         assert (done.returncode, done.stderr) == (0, "")
         assert done.stdout.endswith(f"written: {form}\nEach lift was replayed: equal to the bit.\n")
-        assert done.stdout.startswith("4 lifts, ")
+        assert done.stdout.startswith("12 lifts, ")
         card = (tmp_path / form / "README.md").read_text()
         assert "colift export bundle --to" in card
         digest = json.loads((bundle / "results.json").read_text())["suite_digest"]
         assert digest in card
-    assert len(minari.MinariDataset(tmp_path / "minari" / "data")) == 4
+    assert len(minari.MinariDataset(tmp_path / "minari" / "data")) == 12
     info = json.loads((tmp_path / "lerobot" / "meta" / "info.json").read_text())
     assert parquet.read_table(tmp_path / "lerobot" / "data").num_rows == info["total_frames"]
 

@@ -58,7 +58,10 @@ def test_a_model_is_learned_to_the_same_bytes_and_can_be_run(colift, demonstrate
     [
         (["demonstrate"], "--out"),
         (["demonstrate", "--out", "/nowhere/x.csv"], "no folder /nowhere"),
-        (["demonstrate", "--out", "x.csv", "--seed", "3"], "seeds must be above 14"),
+        (
+            ["demonstrate", "--out", "x.csv", "--seed", "3"],
+            "seeds for learning are 60000 to 199999",
+        ),
         (["demonstrate", "--out", "x.csv", "--lifts", "0"], "lifts must be at least 1, got 0"),
         (["learn", "task_model", "--practice", "0"], "--practice must be at least 1, got 0"),
         (["learn", "task_model", "--out", "/nowhere/x.json"], "no folder /nowhere"),

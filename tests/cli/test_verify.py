@@ -82,13 +82,13 @@ def test_json_is_alone_on_stdout(colift, folder):
 
 def test_a_refused_bundle_is_told_with_file_lift_and_step(colift, folder):
     path = folder / "bundle" / "episodes.csv"
-    path.write_text(path.read_text().replace("smooth,S1,,3,", "smooth,S1,,4,", 1))
+    path.write_text(path.read_text().replace("smooth,draw-1,,3,", "smooth,draw-1,,4,", 1))
     code, told, errors = colift("verify", "bundle")
     assert (code, told) == (1, "")
     heading, *findings = errors.splitlines()
     assert heading == "bundle is refused:"
     assert "  episodes.csv: its SHA-256 is not the one in manifest.json" in findings
-    assert "  episodes.csv, smooth/S1 seed 3: row 1 is smooth/S1 seed 4 instead" in findings
+    assert "  episodes.csv, smooth/draw-1 seed 3: row 1 is smooth/draw-1 seed 4 instead" in findings
 
 
 def test_a_refused_bundle_is_no_verified_json(colift, folder):

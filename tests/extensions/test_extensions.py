@@ -54,7 +54,7 @@ def test_an_error_of_its_task_while_verifying_names_the_task(colift, tmp_path, m
         return {"wanted": lift.nothing}
 
     monkeypatch.setattr(lookup(TASKS, "slope"), "series", series)
-    with pytest.raises(InputError, match=r"task 'slope' .sloping:Slope.: smooth/S1, seed 0"):
+    with pytest.raises(InputError, match=r"task 'slope' .sloping:Slope.: smooth/draw-1, seed 0"):
         verify(tmp_path / "mine")
 
 

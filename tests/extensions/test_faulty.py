@@ -50,12 +50,18 @@ def test_a_suite_that_cannot_be_made_is_named(colift, suite, told):
     [
         (
             "flat",
-            "behaviour 'flat' (faulty:Flat): plan() of S1, seed 0, returned an array; it must "
+            "behaviour 'flat' (faulty:Flat): plan() of draw-1, seed 0, returned an array; it must "
             "return colift.agents.humans.Plan",
         ),
-        ("gap", "behaviour 'gap' (faulty:Gap): plan() of S1, seed 0, returned a plan whose target"),
-        ("stuck", "'stuck' (faulty:Stuck): plan() of S1, seed 0, raised AttributeError: 'Plan'"),
-        ("deaf", "'deaf' (faulty:Deaf): plan() of S1, seed 0, raised TypeError: Deaf.plan()"),
+        (
+            "gap",
+            "behaviour 'gap' (faulty:Gap): plan() of draw-1, seed 0, returned a plan whose target",
+        ),
+        (
+            "stuck",
+            "'stuck' (faulty:Stuck): plan() of draw-1, seed 0, raised AttributeError: 'Plan'",
+        ),
+        ("deaf", "'deaf' (faulty:Deaf): plan() of draw-1, seed 0, raised TypeError: Deaf.plan()"),
         ("mute", "human behaviour 'mute' (faulty:Mute) has no method plan()"),
         ("plain", "human behaviour 'plain' (faulty:Plain) must itself be a frozen dataclass"),
         ("smooth,noise=0", "behaviours take no parameters here: 'smooth' has those of its class"),

@@ -17,9 +17,11 @@ VERIFIED = (
     "benchmark/episode/replay.py",
     "benchmark/results/summary.py",
     "benchmark/statistics/averages.py",
-    "benchmark/statistics/bootstrap.py",
     "benchmark/statistics/estimate.py",
     "benchmark/statistics/samples.py",
+    "benchmark/statistics/student.py",
+    "benchmark/statistics/superiority.py",
+    "benchmark/statistics/units.py",
 )
 """What computes the other numbers of a bundle."""
 

@@ -6,33 +6,27 @@ from dataclasses import dataclass
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.control.predictor import DEFAULT_PERIOD
-from colift.agents.tasks.agree.agree_leader import check_positive
+from colift.agents.ranges import Positive, check_ranges
 from colift.agents.tasks.agree.approach import HurdleWatch
 from colift.agents.tasks.agree.observation import AgreeObservation
 
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeAdmittanceParameters:
-    """Parameters of :class:`AgreeAdmittance`, tuned by hand on seeds of no suite."""
+    """Parameters of :class:`AgreeAdmittance`, tuned by ``colift admit agree-v1 --tune``."""
 
-    compliance: float = 0.7
+    compliance: Positive = 0.49
     """c, speed of the hands per force [m/s/N]. A table inclined by 50 mm loads them with 0.8 N."""
-    spring: float = 14.0
+    spring: Positive = 14.0
     """k, speed per distance from the robot's own hurdle [1/s]."""
-    time: float = 0.1
+    time: Positive = 0.085
     """Time constant of the speed [s], the virtual mass over the virtual damping."""
-    early: float = 0.3
+    early: Positive = 0.42
     """Time before its window opens at which the hurdle begins to attract the hands [s]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a number is not positive.
-        """
-        check_positive(self)
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class AgreeAdmittance:

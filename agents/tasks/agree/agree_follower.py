@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from colift.agents.ranges import Positive
 from colift.agents.tasks.agree.agree_leader import AgreeLeader, AgreeLeaderParameters
 
 
@@ -9,8 +10,8 @@ from colift.agents.tasks.agree.agree_leader import AgreeLeader, AgreeLeaderParam
 class AgreeFollowerParameters(AgreeLeaderParameters):
     """Parameters of :class:`AgreeFollower`."""
 
-    needed: float = 0.75
-    """Time that it takes for itself at the end of its window [s]."""
+    needed: Positive = 1.0
+    """Time that it takes for itself at the end of its window, with the stay [s]."""
 
 
 class AgreeFollower(AgreeLeader):

@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.policies.anticipate import Anticipate
-from colift.agents.tasks.agree.agree_leader import check_positive
+from colift.agents.ranges import Positive, Probability, check_ranges
 from colift.agents.tasks.agree.approach import Approach, HurdleWatch
 from colift.agents.tasks.agree.belief import BeliefParameters, GoalBelief
 from colift.agents.tasks.agree.observation import AgreeObservation
@@ -34,34 +34,28 @@ SMALL: Final = 0.003
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeGameParameters:
-    """Parameters of :class:`AgreeGame`, tuned by hand on new people and seeds of no suite."""
+    """Parameters of :class:`AgreeGame`, tuned by ``colift admit agree-v1 --tune``."""
 
-    early: float = 0.35
+    early: Positive = 0.7
     """Time before its window opens at which it may set out [s]."""
-    lead: float = 0.1
+    lead: Positive = 0.05
     """Time by which the human's end is extrapolated while it is followed [s]."""
-    apart: float = 0.65
+    apart: Probability = 0.65
     """Probability that the human has a goal of its own from which the robot gives way."""
-    served: float = 0.25
+    served: Positive = 0.25
     """Time that the table rests at the human's goal until that hurdle counts as passed [s]."""
-    needed: float = 0.65
+    needed: Positive = 0.65
     """Time before the end of its window from which it no longer gives way [s]."""
-    respite: float = 0.3
+    respite: Positive = 0.3
     """Time for which it does not give way again after it has let the human go first [s]."""
-    pace: float = 8.0
+    pace: Positive = 8.0
     """Natural frequency of the approach [rad/s]."""
-    belief: BeliefParameters = field(default_factory=BeliefParameters)
+    belief: BeliefParameters = field(default_factory=lambda: BeliefParameters(noise=0.056))
     """The filter of the human's goal."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a number is not positive.
-        """
-        check_positive(self)
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class AgreeGame:

@@ -1,34 +1,28 @@
 """The rigid leader: takes the table to its own hurdle at once, whatever the human does."""
 
-import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.policies.anticipate import Anticipate
+from colift.agents.ranges import Positive, check_ranges
 from colift.agents.tasks.agree.approach import Approach, HurdleWatch
 from colift.agents.tasks.agree.observation import AgreeObservation
-from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
 class AgreeLeaderParameters:
     """Parameters of :class:`AgreeLeader`."""
 
-    early: float = 0.3
+    early: Positive = 0.6
     """Time before its window opens at which it sets out [s], to be there when the window opens."""
-    pace: float = 7.0
+    pace: Positive = 9.8
     """Natural frequency of the approach [rad/s]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a number is not positive.
-        """
-        check_positive(self)
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class AgreeLeader:
@@ -37,6 +31,9 @@ class AgreeLeader:
     Neither the human's motion nor the force changes its way (:class:`.Approach`). Before and
     afterwards it keeps level by :class:`.Anticipate`.
     """
+
+    alone: ClassVar[bool] = True
+    """It departs from level by its own knowledge alone, whatever the partner does."""
 
     def __init__(self, *, parameters: AgreeLeaderParameters | None = None) -> None:
         self._parameters = parameters or AgreeLeaderParameters()
@@ -64,16 +61,3 @@ class AgreeLeader:
 
     def _in_turn(self) -> bool:
         return True
-
-
-def check_positive(parameters: object) -> None:
-    """Check that all numbers of some parameters are positive and finite.
-
-    Raises
-    ------
-    InputError
-        If one is not; the message names it.
-    """
-    for name, value in vars(parameters).items():
-        if isinstance(value, float) and not 0 < value < math.inf:
-            raise InputError(f"{name} must be a positive number, got {value}")

@@ -12,8 +12,9 @@ class AgreeLearned(TouchController):
 
     The network was trained on the score itself, by gradients through whole lifts of the twin, with
     people whose manners were drawn anew for each lift (``colift train apg --task agree
-    --updates 500 --lifts 4000 --rate 0.001 --wide 0.1``). See :func:`.felt_action` for the
-    equations.
+    --updates 1500 --batch 128 --units 128 --lifts 6000 --rate 0.002 --wide 0.1``). See
+    :func:`.felt_action`
+    for the equations.
     """
 
     def __init__(self) -> None:

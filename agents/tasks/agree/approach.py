@@ -9,6 +9,9 @@ from colift.agents.tasks.agree.observation import AgreeObservation
 THERE: Final = 0.015
 """Distance within which an end counts as being at the hurdle [m]."""
 
+STAY: Final = 0.2
+"""Time for which the table has to be at the hurdle to have passed it [s]."""
+
 SEEN_AGE: Final = 0.1
 """Age of the seen heights [s], as in the paper."""
 
@@ -20,7 +23,9 @@ class HurdleWatch:
         self.height = self.start = self.stop = 0.0
         """Its height [m], and when its window opens and closes, from now [s]."""
         self.given = self.passed = False
-        """Whether there is a hurdle, and whether both ends were seen there in its window."""
+        """Whether there is a hurdle, and whether both ends were seen to stay there in its
+        window."""
+        self._since: float | None = None
 
     def see(self, observation: Observation) -> None:
         """Take an observation, laid out as :class:`.AgreeObservation`."""
@@ -31,7 +36,12 @@ class HurdleWatch:
         self.given = bool(observation[layout.HURDLE_GIVEN] > 0.5)
         ends = (float(observation[layout.HUMAN_END]), float(observation[layout.ROBOT_END]))
         there = max(abs(end - self.height) for end in ends) < THERE
-        if self.given and there and self.start <= -SEEN_AGE:
+        time = float(observation[layout.TIME])
+        if not (self.given and there and self.start <= -SEEN_AGE):
+            self._since = None
+        elif self._since is None:
+            self._since = time
+        elif time - self._since >= STAY - FRAME / 2:
             self.passed = True
 
     def is_open(self, early: float) -> bool:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, Final, Generic, NamedTuple
 
+from colift.agents.ranges import Positive, Probability, check_ranges
 from colift.agents.rules import SCALARS, ArrayFunctions, N
 
 GOALS: Final = (-0.06, -0.05, -0.04, -0.03, -0.02, 0.0, 0.02, 0.03, 0.04, 0.05, 0.06)
@@ -17,14 +18,18 @@ FARTHEST: Final = 200.0
 class BeliefParameters:
     """Parameters of :func:`believe`."""
 
-    pace: float = 5.0
+    pace: Positive = 5.0
     """Rate at which a partner approaches its goal [1/s]."""
-    noise: float = 0.04
+    noise: Positive = 0.04
     """Standard deviation of a partner's speed about that of the approach [m/s]."""
-    change: float = 0.08
+    change: Probability = 0.08
     """Probability that a partner changes its mind in 0.1 s."""
-    along: float = 0.8
+    along: Probability = 0.8
     """Probability that a partner who has changed its mind comes along, with no goal of its own."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 MIDDLE: Final = 1 + GOALS.index(0.0)

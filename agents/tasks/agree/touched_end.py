@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from colift.agents.agent import Observation
+from colift.agents.ranges import NotNegative, Positive, check_ranges
 from colift.agents.tasks.touch.observation import HapticObservation
 from colift.agents.tasks.touch.touched import FAR_STIFFNESS, TABLE_LENGTH
 
@@ -11,17 +12,21 @@ from colift.agents.tasks.touch.touched import FAR_STIFFNESS, TABLE_LENGTH
 class TouchedEndParameters:
     """Parameters of :class:`TouchedEnd`."""
 
-    latency: float = 0.1
+    latency: NotNegative = 0.1
     """Age of the seen heights [s]."""
-    touch_age: float = 0.01
+    touch_age: NotNegative = 0.01
     """Age of the felt torque [s]: half of the sensor's average, less the lead of its damping."""
-    seen_noise: float = 0.0003
+    seen_noise: Positive = 0.0003
     """Standard deviation of the seen height [m]."""
-    felt_noise: float = 0.003
+    felt_noise: Positive = 0.003
     """Standard deviation of the height felt by the torque [m]: 2 mNm over 0.8 m, and the effect of
     the table's inertia."""
-    jerk: float = 0.5
+    jerk: Positive = 0.5
     """Root of the spectral density of the human's acceleration [m/s^(3/2)]."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class TouchedEnd:

@@ -16,7 +16,7 @@ PARTS: Final = np.geomspace(0.15, 1.1, 8)
 """Candidates for the part of the wanted inclination that the wrists show, equally likely before the
 episode."""
 
-FELT_NOISE: Final = 0.012
+FELT_NOISE: Final = 0.0084
 """Standard deviation of the height difference that the wrists seem to mean [m]."""
 
 PLACE_NOISE: Final = 0.01

@@ -1,36 +1,27 @@
 """The ball by admittance: the robot yields to the torque of the human's wrists."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.agent import Action, Observation
+from colift.agents.ranges import NotNegative, check_ranges
 from colift.agents.tasks.ball.tracking import Tracking
-from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
 class BallAdmittanceParameters:
     """Parameters of :class:`BallAdmittance`."""
 
-    admittance: float = 2.0
+    admittance: NotNegative = 1.4
     """Commanded height difference, relative to the one that the wrists seem to mean."""
-    calming: float = 0.1
+    calming: NotNegative = 0.1
     """Height difference against the ball's motion, per speed [s]."""
-    steepest: float = 0.08
+    steepest: NotNegative = 0.034
     """Largest height difference [m]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a parameter is negative or not finite.
-        """
-        for name, value in vars(self).items():
-            if not 0 <= value < math.inf:
-                raise InputError(f"{name} must be a number of at least 0, got {value}")
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class BallAdmittance:

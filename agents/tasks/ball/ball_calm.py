@@ -1,34 +1,26 @@
 """The ball left to the human: the table is kept level, and the ball is slowed down."""
 
-import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from colift.agents.agent import Action, Observation
+from colift.agents.ranges import NotNegative, check_ranges
 from colift.agents.tasks.ball.tracking import Tracking
-from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
 class BallCalmParameters:
     """Parameters of :class:`BallCalm`."""
 
-    calming: float = 0.2
+    calming: NotNegative = 0.4
     """Height difference against the ball's motion, per speed [s]."""
-    steepest: float = 0.08
+    steepest: NotNegative = 0.08
     """Largest height difference [m]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a parameter is negative or not finite.
-        """
-        for name, value in vars(self).items():
-            if not 0 <= value < math.inf:
-                raise InputError(f"{name} must be a number of at least 0, got {value}")
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class BallCalm:
@@ -36,6 +28,9 @@ class BallCalm:
 
     It never loses the ball, but leaves it to the human to bring the ball to its target.
     """
+
+    alone: ClassVar[bool] = True
+    """It departs from level by its own knowledge alone, whatever the partner does."""
 
     def __init__(self, *, parameters: BallCalmParameters | None = None) -> None:
         self._parameters = parameters or BallCalmParameters()

@@ -1,10 +1,10 @@
 """The ball by inference of the person's aim, and of the missing part of the steering."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.agent import Action, Observation
+from colift.agents.ranges import NotNegative, check_ranges
 from colift.agents.tasks.ball.aim_filter import (
     DAMPING,
     FELT_NOISE,
@@ -14,33 +14,24 @@ from colift.agents.tasks.ball.aim_filter import (
 )
 from colift.agents.tasks.ball.observation import BallObservation
 from colift.agents.tasks.ball.tracking import Tracking
-from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
 class BallGameParameters:
     """Parameters of :class:`BallGame`."""
 
-    ahead: float = 0.07
+    ahead: NotNegative = 0.084
     """Time from now at which a command acts, on average [s]."""
-    gain: float = 0.8
+    gain: NotNegative = 0.8
     """Height difference relative to that of the person's law."""
-    steepest: float = 0.07
+    steepest: NotNegative = 0.14
     """Largest height difference [m]."""
-    felt_noise: float = FELT_NOISE
+    felt_noise: NotNegative = FELT_NOISE
     """See :class:`.AimFilter` [m]; a value of 1 switches the use of the wrists off."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a parameter is negative or not finite.
-        """
-        for name, value in vars(self).items():
-            if not 0 <= value < math.inf:
-                raise InputError(f"{name} must be a number of at least 0, got {value}")
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class BallGame:

@@ -1,37 +1,29 @@
 """The ball by a fixed controller, whatever the person does."""
 
-import math
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from colift.agents.agent import Action, Observation
+from colift.agents.ranges import NotNegative, check_ranges
 from colift.agents.tasks.ball.inclining import Inclining
 from colift.agents.tasks.ball.observation import BallObservation
-from colift.base.errors import InputError
 
 
 @dataclass(frozen=True, kw_only=True)
 class BallSteadyParameters:
     """Parameters of :class:`BallSteady`."""
 
-    place_gain: float = 0.5
+    place_gain: NotNegative = 0.5
     """Height difference per distance from the target [m/m]."""
-    speed_gain: float = 0.45
+    speed_gain: NotNegative = 0.225
     """Height difference per speed of the ball [s]."""
-    steepest: float = 0.1
+    steepest: NotNegative = 0.1
     """Largest height difference [m]."""
 
     def __post_init__(self) -> None:
-        """Check the ranges.
-
-        Raises
-        ------
-        InputError
-            If a parameter is negative or not finite.
-        """
-        for name, value in vars(self).items():
-            if not 0 <= value < math.inf:
-                raise InputError(f"{name} must be a number of at least 0, got {value}")
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class BallSteady:
@@ -40,6 +32,9 @@ class BallSteady:
     It does all of the steering from the seen place and speed, whatever the person does; if it does
     not know the target, it uses the middle of the table.
     """
+
+    alone: ClassVar[bool] = True
+    """It departs from level by its own knowledge alone, whatever the partner does."""
 
     def __init__(self, *, parameters: BallSteadyParameters | None = None) -> None:
         self._parameters = parameters or BallSteadyParameters()

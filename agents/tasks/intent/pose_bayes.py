@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.ranges import NotNegative, Positive, Probability, check_ranges
 from colift.agents.tasks.intent.pose_filter import PoseFilter, PoseFilterParameters
 from colift.agents.tasks.touch.observation import HapticObservation
 from colift.agents.tasks.touch.touched import touched
@@ -14,16 +15,20 @@ from colift.agents.tasks.touch.touched import touched
 class PoseByBayesParameters:
     """Parameters of :class:`PoseByBayes`, tuned on seeds from 100000 on and on no suite."""
 
-    ahead: float = 0.12
+    ahead: NotNegative = 0.12
     """Time by which the command is planned ahead [s], for the lag of the arm."""
-    switch: float = 0.03
+    switch: Probability = 0.03
     """See :class:`.PoseFilterParameters`."""
-    pitch_noise: float = 0.012
+    pitch_noise: Positive = 0.012
     """See :class:`.PoseFilterParameters` [rad]."""
-    path_noise: float = 0.1
+    path_noise: Positive = 0.1
     """See :class:`.PoseFilterParameters`."""
-    haste: float = 0.1
+    haste: Probability = 0.1
     """See :class:`.PoseFilterParameters`; a value of 1 ignores whether the human waits."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 class PoseByBayes:

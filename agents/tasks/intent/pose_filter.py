@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from colift.agents.ranges import Positive, Probability, Shares, check_ranges
 from colift.agents.tasks.touch.touched import FAR_STIFFNESS, TABLE_LENGTH, WRIST_STIFFNESS
 from numpy.typing import NDArray
 
@@ -19,24 +20,28 @@ LEAST_WEIGHT: Final = 1e-6
 class PoseFilterParameters:
     """Parameters of :class:`PoseFilter`."""
 
-    wrists: tuple[float, ...] = (-0.4, -0.1, 0.2, 0.5, 0.8, 1.2)
+    wrists: Shares = (-0.4, -0.1, 0.2, 0.5, 0.8, 1.2)
     """Shares of the intended pitch that the wrists may show, equally likely."""
-    switch: float = 0.03
+    switch: Probability = 0.03
     """Probability that the intent changes within a step."""
-    pitch_noise: float = 0.012
+    pitch_noise: Positive = 0.012
     """Standard deviation of a sensed wrist pitch [rad]: force sensor, lead and inertia."""
-    path_noise: float = 0.25
+    path_noise: Positive = 0.25
     """Standard deviation of the far end's intended movement, relative to the near end's."""
-    still: float = 0.001
+    still: Positive = 0.001
     """Standard deviation of the far end's intended movement in a step at rest [m]."""
-    patience: float = 0.05
+    patience: Positive = 0.05
     """Distance of the far end from its intended height [m] beyond which a person slows down."""
-    moves: float = 0.003
+    moves: Positive = 0.003
     """Movement of the near end in a step [m] that is equally likely for a person who waits and one
     who goes on."""
-    haste: float = 0.1
+    haste: Probability = 0.1
     """Probability that a person moves on although the far end is more than twice that distance
     off."""
+
+    def __post_init__(self) -> None:
+        """Check the ranges; see :mod:`colift.agents.ranges`."""
+        check_ranges(self)
 
 
 _exponential: Final = np.vectorize(math.exp, otypes=[np.float64])

@@ -1,5 +1,7 @@
 """A level table by touch, without regard to the human's intention."""
 
+from typing import ClassVar
+
 import numpy as np
 from colift.agents.agent import Action, Observation
 from colift.agents.tasks.touch.observation import HapticObservation
@@ -13,6 +15,9 @@ class TouchLevel:
 
         u = z + d.
     """
+
+    alone: ClassVar[bool] = True
+    """It departs from level by its own knowledge alone, whatever the partner does."""
 
     def reset(self, seed: int) -> None:
         """Begin an episode with the table at height 0."""

@@ -12,17 +12,13 @@ from colift.agents.agent import Action, Observation
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import network_of
 from colift.agents.senses import Sense
-from colift.agents.tasks.touch.touch_law import (
-    TouchNetwork,
-    felt_action,
-    inputs_of,
-    touch_at_rest,
-)
+from colift.agents.tasks.touch.alone_law import law_of, ports_of
+from colift.agents.tasks.touch.touch_law import TouchNetwork, touch_at_rest
 from colift.base.errors import InputError
 
 
 class TouchController:
-    """The control law of :func:`.felt_action` with given weights.
+    """The control law of :func:`.felt_action`, or of :func:`.alone_action`, with given weights.
 
     Parameters
     ----------
@@ -31,7 +27,7 @@ class TouchController:
     """
 
     def __init__(self, learned: TouchNetwork) -> None:
-        self._learned = learned
+        self._learned, self._law = learned, law_of(learned)
 
     def reset(self, seed: int) -> None:
         """Begin an episode."""
@@ -51,7 +47,7 @@ class TouchController:
                 f"these weights are of the task {self._learned.task!r}, whose observation has "
                 f"{self._learned.expected} numbers; got {observation.shape}"
             )
-        self._memory, change = felt_action(self._learned, self._memory, observation, PORTABLE)
+        self._memory, change = self._law(self._learned, self._memory, observation, PORTABLE)
         return np.array([change])
 
 
@@ -81,7 +77,9 @@ def touch_network(arrays: Any, source: str) -> TouchNetwork:
     if "task" not in arrays:
         raise InputError(f"{source}: not the weights of a policy by touch: task is missing")
     senses = senses_of(arrays, source)
-    return TouchNetwork(str(arrays["task"]), senses, network_of(arrays, source, inputs_of(senses)))
+    alone = "alone" in arrays and bool(np.asarray(arrays["alone"]).all())
+    network = network_of(arrays, source, *ports_of(senses, alone=alone))
+    return TouchNetwork(str(arrays["task"]), senses, network, alone)
 
 
 def senses_of(arrays: Any, source: str) -> tuple[Sense, ...]:

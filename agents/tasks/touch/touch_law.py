@@ -26,6 +26,8 @@ class TouchNetwork(NamedTuple):
     senses: tuple[Sense, ...]
     """The task's senses besides sight and touch."""
     network: GatedNetwork
+    alone: bool = False
+    """Whether it acts alone, by :func:`.alone_action`."""
 
     @property
     def expected(self) -> int:
@@ -94,7 +96,7 @@ def felt_action(
             2.0 * force,
             10.0 * (observation[layout.HUMAN_END] - 0.1),
             20.0 * (observation[layout.ROBOT_END] - observation[layout.HUMAN_END]),
-            *_inputs(learned.senses, own, memory),
+            *own_inputs(learned.senses, own, memory),
         )
     )
     units = gated(network, memory.units, inputs, functions)
@@ -105,7 +107,7 @@ def felt_action(
     return TouchMemory(units, near, command, own, begun), wanted - command
 
 
-def _inputs(senses: tuple[Sense, ...], own: tuple[Any, ...], memory: TouchMemory) -> list[Any]:
+def own_inputs(senses: tuple[Sense, ...], own: tuple[Any, ...], memory: TouchMemory) -> list[Any]:
     """Return the inputs that only this task has: its senses, and the changes of some."""
     found = []
     for sense, number, last in zip(senses, own, memory.own, strict=True):

@@ -122,13 +122,13 @@ def _write_name(dot: Dot, pen: Pen) -> None:
             _name_colour(point),
             NAME_SIZE,
             bold=dot.best or point.kind == "baseline",
-            italic=point.kind == "bound",
+            italic=point.kind == "reference",
             halo=True,
         )
 
 
 def _name_colour(point: FrontPoint) -> Colour:
-    colours: dict[str, Colour] = {"policy": "ink", "baseline": "human", "bound": "faint"}
+    colours: dict[str, Colour] = {"policy": "ink", "baseline": "human", "reference": "faint"}
     return colours[point.kind]
 
 

@@ -115,7 +115,7 @@ class _FigurePen:
         )
 
     def marker(self, dot: Dot, colour: Colour, *, filled: bool) -> None:
-        shape = {"policy": "o", "baseline": "D", "bound": "s"}[dot.point.kind]
+        shape = {"policy": "o", "baseline": "D", "reference": "s"}[dot.point.kind]
         self._axes.plot(
             *dot.at,
             shape,

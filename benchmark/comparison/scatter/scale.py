@@ -86,23 +86,23 @@ class Scale:
             return ()
         x, y = self.place(point)
         _, top, right, bottom = self.inner
-        low, high = point.rmse_mm.ci95
+        low, high = point.rmse_mm.ends
         bars = [(self.across(low), y, min(self.across(high), right), y)]
         if point.second is not None and not self.below(point):
-            upper, lower = sorted(self.down(end) for end in point.second.ci95)
+            upper, lower = sorted(self.down(end) for end in point.second.ends)
             bars.append((x, max(upper, top), x, min(lower, bottom)))
         return tuple(bar for bar in bars if bar[:2] != bar[2:])
 
 
 def make_scale(points: Sequence[FrontPoint], plot: Box, metric: Metric) -> Scale:
     """Return a scale that shows most of the points; those far off do not count."""
-    far = far_limit([point.rmse_mm.mean for point in points if point.kind != "bound"])
+    far = far_limit([point.rmse_mm.mean for point in points if point.kind != "reference"])
     near = [point for point in points if point.rmse_mm.mean <= far]
     shown = [each.second for each in near if each.second]
-    low, high = _padded([end for each in shown for end in (each.mean, *each.ci95)] or [0.0])
+    low, high = _padded([end for each in shown for end in (each.mean, *each.ends)] or [0.0])
     return Scale(
         plot=plot,
-        x=_padded([end for point in near for end in point.rmse_mm.ci95]),
+        x=_padded([end for point in near for end in point.rmse_mm.ends]),
         y=(low, high) if metric.better == "more" else (high, low),
         beyond=len(near) < len(points),
         still=any(point.second is None for point in points),

@@ -42,7 +42,7 @@ CLEAR: Final = 2.0
 """Room left free around names and markers [px]."""
 
 NAMED: Final = 40
-"""Most points that get a name: the baseline, the front, the bounds, then the rest by error."""
+"""Most points that get a name: the baseline, the front, the references, then the rest by error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,7 +130,7 @@ def make_scene(
     Parameters
     ----------
     points
-        At least one policy, the best first; the human-human baseline and the bounds.
+        At least one policy, the best first; the human-human baseline and the references.
     axes
         The error, and the other metric of the points.
     axis

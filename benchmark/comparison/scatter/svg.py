@@ -86,7 +86,7 @@ class _SvgPen:
         shape = {
             "policy": f"M{x - r:.1f} {y:.1f}a{r} {r} 0 1 1 {2 * r} 0a{r} {r} 0 1 1 -{2 * r} 0z",
             "baseline": f"M{x:.1f} {y - 6.5:.1f}l6.5 6.5-6.5 6.5-6.5-6.5z",
-            "bound": f"M{x - 4.5:.1f} {y - 4.5:.1f}h9v9h-9z",
+            "reference": f"M{x - 4.5:.1f} {y - 4.5:.1f}h9v9h-9z",
         }[dot.point.kind]
         self.elements.append(
             f'<path class="{dot.point.kind}{" best" * dot.best}" d="{shape}" '

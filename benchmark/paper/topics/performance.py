@@ -9,11 +9,11 @@ from colift.benchmark.episode.metrics import stroke_smoothness
 from colift.benchmark.episode.smoothness import sparc
 from colift.benchmark.paper.evidence import Evidence
 from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
-from colift.benchmark.paper.table_one import errors
+from colift.benchmark.paper.table_one import errors, single_lifts
 from colift.benchmark.paper.topics.confidence import moving_confidence
 from colift.benchmark.paper.watched import SampledLift, sampled_lifts
 from colift.benchmark.rendering.style import FAINT, HUMAN, INK, ROBOT
-from colift.benchmark.statistics import paired_permutation_p, stratified_bootstrap
+from colift.benchmark.statistics import Units, mean_of, paired_permutation_p
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -30,7 +30,7 @@ def _absolute(evidence: Evidence) -> Claim:
         np.array([episode.scores["abs_error_mm"] for episode in run.episodes])
         for run in (evidence.reactive, evidence.blend)
     )
-    p = paired_permutation_p(with_it, without)
+    p = paired_permutation_p(with_it, without, single_lifts(with_it))
     return Claim(
         claim="The absolute error is lower with prediction.",
         figure="figure 8",
@@ -46,7 +46,7 @@ def _absolute(evidence: Evidence) -> Claim:
 def _smoother(evidence: Evidence) -> Claim:
     with_it, without = _scores(evidence.blend.episodes), _scores(evidence.reactive.episodes)
     a, b = _both(with_it, without)
-    p = paired_permutation_p(a, b)
+    p = paired_permutation_p(a, b, single_lifts(a))
     jerks = [
         np.nanmean([episode.scores["ldlj"] for episode in run.episodes])
         for run in (evidence.blend, evidence.reactive)
@@ -66,7 +66,7 @@ def _smoother(evidence: Evidence) -> Claim:
 def _lowering(evidence: Evidence) -> Claim:
     ups, downs = np.array([stroke_scores(lift) for lift in evidence.lifts]).T
     up, down = _both(ups, downs)
-    p = paired_permutation_p(down, up)
+    p = paired_permutation_p(down, up, single_lifts(down))
     better = bool(down.mean() > up.mean())
     return Claim(
         claim="With prediction, the motion is smoother while lowering than while lifting.",
@@ -103,7 +103,9 @@ def _jerky(evidence: Evidence) -> list[Claim]:
         float(errors(run.episodes).mean()) for run in runs
     )
     (_, high), (low, _) = (
-        stratified_bootstrap(errors(run.episodes), [episode.subject for episode in run.episodes])
+        mean_of(
+            errors(run.episodes), Units.episodes(episode.subject for episode in run.episodes)
+        ).ends
         for run in runs[:2]
     )
     ratios = smooth / smooth_reactive, rough / rough_reactive

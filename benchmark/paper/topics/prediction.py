@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.paper.exhibits import PREDICTION, Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.table_one import single_lifts
 from colift.benchmark.paper.watched import SampledLift, rms
 from colift.benchmark.rendering.style import HUMAN
 from colift.benchmark.statistics import paired_permutation_p
@@ -49,7 +50,7 @@ def _improves(lifts: Sequence[SampledLift]) -> Claim:
         np.array([1000 * rms(lift.errors[_after(lift, *span)]) for lift in lifts])
         for span in ((0, INITIAL), (INITIAL, 2 * INITIAL), (INITIAL, None))
     )
-    p = paired_permutation_p(early, late)
+    p = paired_permutation_p(early, late, single_lifts(early))
     worst, relative = _profile(lifts)
     stroke = float(np.mean([_stroke_steps(lift) for lift in lifts]))
     means = early.mean(), late.mean(), rest.mean()

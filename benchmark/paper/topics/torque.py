@@ -8,7 +8,7 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.paper.evidence import Evidence
 from colift.benchmark.paper.exhibits import Claim, p_value_text
-from colift.benchmark.paper.table_one import errors
+from colift.benchmark.paper.table_one import errors, single_lifts
 from colift.benchmark.robots.robot import make_robot
 from colift.benchmark.statistics import paired_permutation_p
 from numpy.typing import NDArray
@@ -25,7 +25,7 @@ def torque_claims(evidence: Evidence) -> list[Claim]:
     name = arm.blend.suite.scenarios[0].partner
     smooth, jerk = (_of(arm.blend, metric) for metric in ("sparc", "ldlj"))
     servo, servo_jerk = (_same(evidence.blend, arm.blend, each) for each in ("sparc", "ldlj"))
-    p = paired_permutation_p(smooth, servo)
+    p = paired_permutation_p(smooth, servo, single_lifts(smooth))
     gains = [
         float(errors(blend).mean() / errors(reactive).mean())
         for blend, reactive in (

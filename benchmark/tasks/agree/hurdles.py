@@ -21,8 +21,8 @@ APART: Final = (0.02, 0.1)
 FIRST: Final = (0.4, 0.7)
 """Range of the time from the end of the rise until the first window opens [s]."""
 
-LENGTH: Final = (1.4, 1.7)
-"""Range of the length of a window [s]: room for two passages."""
+LENGTH: Final = (1.7, 2.0)
+"""Range of the length of a window [s]: room for two passages, each with a stay."""
 
 LEFT: Final = (0.3, 0.5)
 """Range of the time from the end of the last window to the lowering [s]."""

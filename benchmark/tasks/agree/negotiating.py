@@ -62,7 +62,7 @@ class AgreeingSenses(NamedTuple, Generic[N]):
 
 def beginning(f: ArrayFunctions[N], zero: N, no: Any) -> Agreeing[N]:
     """Return the memory at the beginning of a lift, of a number 0 and a truth False."""
-    turn = Turn(zero, zero, no, no, no, no)
+    turn = Turn(zero, zero, zero, no, no, no, no)
     return Agreeing(prior(f, _BELIEF, zero), zero, zero, turn)
 
 

@@ -5,16 +5,16 @@ from typing import Any, Final, Generic, NamedTuple
 from colift.agents.rules import ArrayFunctions, N
 from colift.benchmark.tasks.agree.manner import AgreeingManner
 
-NEEDED: Final = 0.7
-"""Time that a passage needs [s]."""
+NEEDED: Final = 0.9
+"""Time that a passage needs, with the stay [s]."""
 
 EARLY: Final = 0.25
 """Time before the window opens at which a passage may begin [s]."""
 
 NEAR: Final = 0.006
 FAR_NEAR: Final = 0.015
-"""Distances of the person's end and of the far end from the hurdle within which the table counts as
-having passed [m]."""
+"""Distances of the person's end and of the far end from the hurdle within which the table is there
+[m]."""
 
 AWAY: Final = 0.02
 """Distance from the common height beyond which a partner has a goal of its own [m]."""
@@ -28,6 +28,12 @@ SLOW: Final = 0.05
 SERVED: Final = 0.2
 """Time that the table rests at the partner's goal until the person takes that hurdle as passed
 [s]."""
+
+STUBBORN: Final = 1.0
+"""Insistence from which a person lets nobody go first [s]."""
+
+STAYED: Final = 0.2
+"""Time that the table stays at the person's own hurdle until the person takes it as passed [s]."""
 
 
 class Secret(NamedTuple, Generic[N]):
@@ -70,6 +76,8 @@ class Turn(NamedTuple, Generic[N]):
 
     rested: N
     """Time for which the table has rested at a goal of the partner's [s]."""
+    stayed: N
+    """Time for which the table has stayed at the person's own hurdle [s]."""
     conflict: N
     """Time for which both have been going to their own goals [s]."""
     begun: Any
@@ -120,8 +128,9 @@ def mine(
 
     The turn comes at the share ``patience`` of the time between the earliest and the latest moment
     to begin, or as soon as the partner has been at its own goal. A partner who is seen to go to a
-    goal of its own may go first, up to the latest moment. If both have begun, the person insists
-    for a while and then gives way, until the partner has been at its goal.
+    goal of its own may go first, up to the latest moment, unless the person is stubborn. If both
+    have begun, the person insists for a while and then gives way, until the partner has been at its
+    goal.
 
     ``apart`` is whether the partner goes to a goal of its own, ``period`` the time of a step [s].
     """
@@ -129,15 +138,17 @@ def mine(
     ends = f.logical_and(
         f.abs(seen.own - hurdle.height) < NEAR, f.abs(seen.far - hurdle.height) < FAR_NEAR
     )
-    passes = f.logical_and(f.logical_and(given, hurdle.start <= 0.0), ends)
-    passed = f.logical_or(turn.passed, passes)
+    there = f.logical_and(f.logical_and(given, hurdle.start <= 0.0), ends)
+    stayed = f.where(there, turn.stayed + period, 0.0)
+    passed = f.logical_or(turn.passed, stayed > STAYED)
     earliest, latest = hurdle.start - EARLY, hurdle.stop - NEEDED
     patience = f.where(turn.served, 0.0, manner.patience)
     due = earliest + patience * (latest - earliest) <= 0.0
     ahead = f.logical_and(f.logical_not(passed), hurdle.stop > 0.0)
     open_now = f.logical_and(given, f.logical_and(ahead, due))
 
-    begins = f.logical_or(f.logical_or(f.logical_not(apart), turn.served), latest <= 0.0)
+    free = f.logical_or(f.logical_not(apart), turn.served)
+    begins = f.logical_or(f.logical_or(free, latest <= 0.0), manner.insistence > STUBBORN)
     goes_on = f.logical_and(open_now, turn.begun)
     contested = f.where(apart, turn.conflict + period, 0.0)
     conflict = f.where(goes_on, contested, turn.conflict)
@@ -151,5 +162,7 @@ def mine(
         ),
     )
     begun = f.logical_or(turn.begun, f.logical_and(open_now, begins))
-    turn = turn._replace(conflict=conflict, begun=begun, yielded=yielded, passed=passed)
+    turn = turn._replace(
+        stayed=stayed, conflict=conflict, begun=begun, yielded=yielded, passed=passed
+    )
     return turn, goes

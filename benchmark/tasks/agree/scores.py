@@ -8,8 +8,13 @@ import numpy as np
 from colift.agents.agent import FRAME
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.tasks.agree.hurdles import Hurdle
+from colift.benchmark.tasks.touch import held
 from colift.robots.arithmetic import dot
 from numpy.typing import NDArray
+
+STAY: Final = 20
+"""Frames for which the table has to be at a hurdle, 0.2 s: who only crosses it has not found it.
+After this time a person takes a rest there as intended (:data:`.precedence.SERVED`)."""
 
 PASSED: Final = 0.01
 """Root mean square distance of both ends from a hurdle within which the table passes it [m]."""
@@ -27,11 +32,12 @@ def passing(height: Any, near: Any, far: Any) -> Any:
 
 
 def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
-    r"""Return the table's distance from a hurdle in each frame of its window [m].
+    r"""Return the table's distance from a hurdle in each stay of its window [m].
 
-    .. math:: d_t = \sqrt{\tfrac12 \left( (Z_{1t} - h)^2 + (Z_{2t} - h)^2 \right)}
+    .. math:: d_t = \sqrt{\frac1K \sum_{k=t}^{t+K-1}
+        \tfrac12 \left( (Z_{1k} - h)^2 + (Z_{2k} - h)^2 \right)}
 
-    Both ends count: the table as a whole has to be there.
+    with K = :data:`STAY`. Both ends count: the table as a whole has to be there.
 
     Parameters
     ----------
@@ -39,15 +45,21 @@ def distance(hurdle: Hurdle, near: Heights, far: Heights) -> Heights:
         Its height h and window.
     near, far
         Heights Z1 and Z2 of the ends [m], shape (T,).
+
+    Returns
+    -------
+    array
+        One number for each frame t that begins a stay in the window; none if it was too short.
     """
     window = slice(hurdle.start, hurdle.stop)
-    return np.asarray(np.sqrt(passing(hurdle.height, near[window], far[window])))
+    squares = passing(hurdle.height, near[window], far[window])
+    return np.sqrt(held(squares, STAY)) if len(squares) >= STAY else np.empty(0)
 
 
 def missed_mm(hurdle: Hurdle | None, near: Heights, far: Heights) -> float:
     """Return the distance by which the table misses a hurdle: the least :func:`distance` [mm].
 
-    NaN without a hurdle; :data:`.FAILED_FRAME_MM` if the lift ended before its window opened.
+    NaN without a hurdle; :data:`.FAILED_FRAME_MM` if the lift ended before a stay was possible.
     """
     if hurdle is None:
         return math.nan
@@ -69,8 +81,8 @@ def agreement_rmse_mm(errors: Sequence[float], frames: int, horizon: int) -> flo
 def agreement_ms(hurdles: Sequence[Hurdle | None], near: Heights, far: Heights) -> float:
     """Return the time from the opening of the first window until the last hurdle is passed [ms].
 
-    A hurdle counts as passed within :data:`PASSED`, or at the end of its window if it is never
-    passed. NaN without hurdles.
+    A hurdle counts as passed at the end of the first stay within :data:`PASSED`, or at the end of
+    its window if there is none. NaN without hurdles.
     """
     given = [hurdle for hurdle in hurdles if hurdle is not None]
     if not given:
@@ -78,7 +90,7 @@ def agreement_ms(hurdles: Sequence[Hurdle | None], near: Heights, far: Heights) 
     passed = []
     for hurdle in given:
         there = np.flatnonzero(distance(hurdle, near, far) <= PASSED)
-        passed.append(hurdle.start + int(there[0]) if there.size else hurdle.stop)
+        passed.append(hurdle.start + int(there[0]) + STAY if there.size else hurdle.stop)
     return 1000 * FRAME * (max(passed) - min(hurdle.start for hurdle in given))
 
 

@@ -30,8 +30,8 @@ AGREE_METRICS: Final = metric_table(
             unit="mm",
             digits=1,
             shown="board",
-            meaning="least distance of the table from the human's hurdle in its window, root mean "
-            "square of both ends",
+            meaning="distance of the table from the human's hurdle in the best 0.2 s of its "
+            "window, root mean square of both ends",
         ),
         Metric(
             name="robot_hurdle_mm",
@@ -65,6 +65,7 @@ AGREE_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
         ),
@@ -75,8 +76,8 @@ AGREE_METRICS: Final = metric_table(
             unit="ms",
             digits=0,
             shown="run",
-            meaning="time from the opening of the first window until the table has passed all "
-            "hurdles within 10 mm, the end of the window for one that it misses",
+            meaning="time from the opening of the first window until the table has stayed at all "
+            "hurdles, for 0.2 s within 10 mm, the end of the window for one that it misses",
         ),
         Metric(
             name="human_leads_mw",

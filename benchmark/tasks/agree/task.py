@@ -18,11 +18,14 @@ from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import AGREE_PEOPLE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.agree.hurdles import Hurdle, HurdlePlan
 from colift.benchmark.tasks.agree.person import Negotiates
 from colift.benchmark.tasks.agree.precedence import Obstacle, secret
 from colift.benchmark.tasks.agree.scores import (
+    STAY,
     agreement_ms,
     agreement_rmse_mm,
     leading_mw,
@@ -31,15 +34,16 @@ from colift.benchmark.tasks.agree.scores import (
 )
 from colift.benchmark.tasks.agree.second import SecondNegotiator, with_secret
 from colift.benchmark.tasks.agree.table import AGREE_METRICS
-from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
 
 MOST_UNCERTAIN: Final = 1.0
 """Largest uncertainty of the far end's speed [m/s]: its speed is then practically unknown."""
 
-NEVER: Final = 1.0
-"""Square distance from a hurdle outside its window [m2]: larger than any within it."""
+NEVER: Final = 2.0 * STAY
+"""Square distance from a hurdle outside its window [m2]: a stay with one such frame is farther away
+than any within the window."""
 
 
 class Windows(NamedTuple):
@@ -104,7 +108,7 @@ class Agree(Touch):
         "no_hurdle",
     )
     senses: ClassVar[tuple[Sense, ...]] = HURDLE_SENSES
-    least: ClassVar[tuple[bool, ...]] = (True, True, False)
+    stays: ClassVar[tuple[int, ...]] = (STAY, STAY, 0)
 
     def __post_init__(self) -> None:
         """Check the range."""
@@ -232,5 +236,5 @@ def _window(hurdle: Hurdle | None, frames: int) -> NDArray[np.float64]:
 
 
 def agree_suite() -> Suite:
-    """5 subjects x 6 kinds of hurdles x 4 lifts: half with two hurdles, a third with one."""
-    return subjects_suite("agree-v1", Agree, 4)
+    """25 people x 6 kinds of hurdles: half with two hurdles, a third with one."""
+    return people_suite("agree-v1", Agree.name, Agree.behaviours, AGREE_PEOPLE)

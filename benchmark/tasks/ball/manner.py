@@ -46,7 +46,7 @@ MANNERS: Final[Mapping[str, SteeringManner[float]]] = {
     "S4": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.3, wrist=0.8),
     "S5": SteeringManner(share=0.1, haste=1.6, lead=0.2, trust=0.4, wrist=0.03),
 }
-"""The manners of the five subjects, spread over the ranges."""
+"""The manners of the stress people, placed at the ends of the ranges."""
 
 
 PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3, wrist=0.5)
@@ -54,7 +54,7 @@ PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3
 
 
 def steering_manner(subject: Subject) -> SteeringManner[float]:
-    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
+    """Return a person's manner: for stress people as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
     return SteeringManner(**drawn_traits(TRAITS, subject, 0xBA11))

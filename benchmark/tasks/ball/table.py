@@ -41,6 +41,31 @@ BALL_METRICS: Final = metric_table(
             ),
         ),
         Metric(
+            name="shared_rmse_mm",
+            symbol="shared",
+            label="RMSE with a shared target",
+            unit="mm",
+            digits=1,
+            shown="board",
+            meaning="the RMSE of the lifts in which both know the target",
+            words=MetricWords(
+                present="whose target both know",
+                caption="Shared and private: RMSE in mm of the lifts in which both know the "
+                "target, and in which the human alone does.",
+            ),
+        ),
+        Metric(
+            name="private_rmse_mm",
+            symbol="private",
+            label="RMSE with a private target",
+            unit="mm",
+            digits=1,
+            shown="board",
+            meaning="the RMSE of the lifts in which the human alone knows the target: the robot "
+            "has to infer it",
+            words=MetricWords(present="whose target the human alone knows"),
+        ),
+        Metric(
             name="velocity_peaks",
             symbol="peaks",
             label="Peaks of velocity",
@@ -80,6 +105,7 @@ BALL_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the weight of table and ball",
             words=MetricWords(

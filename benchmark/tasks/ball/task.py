@@ -17,13 +17,15 @@ from colift.benchmark.episode.lift import lasting
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import BALL_PEOPLE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.ball.person import Steers
 from colift.benchmark.tasks.ball.places import BallPlan
 from colift.benchmark.tasks.ball.scores import ball_settling_ms, velocity_peaks
 from colift.benchmark.tasks.ball.second import BallPartner, BallSenses, with_ball
 from colift.benchmark.tasks.ball.table import BALL_METRICS
-from colift.benchmark.tasks.touch import Touch, subjects_suite, torque_of
+from colift.benchmark.tasks.touch import Touch, torque_of
 from colift.benchmark.world import Ball
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
@@ -129,10 +131,14 @@ class BallSteering(Touch):
         felt = trace.human_force - WEIGHT_SHARE - self.ball.mass * GRAVITY / 2
         nan, empty = math.nan, len(place) == 0
         peaks, speed = (nan, nan) if failed else velocity_peaks(place, target)
+        error = self.rmse_mm(lift, trace, place)
+        shared = lift.facts.shown > 0.0
         lost = not empty and bool(np.abs(place[-lift.frames_per_step :]).max() > TABLE_LENGTH / 2)
         return {
-            "rmse_mm": self.rmse_mm(lift, trace, place),
+            "rmse_mm": error,
             "settling_ms": nan if failed else ball_settling_ms(place - target, target),
+            "shared_rmse_mm": error if shared else nan,
+            "private_rmse_mm": nan if shared else error,
             "velocity_peaks": peaks,
             "peak_speed_m_s": speed,
             "fallen": float(lost),
@@ -153,5 +159,5 @@ def _with_ball(lift: Playing, view: Observation, delay: int, *, known: bool) -> 
 
 
 def ball_suite() -> Suite:
-    """5 subjects x 4 behaviours x 5 lifts: a ball that both steer."""
-    return subjects_suite("ball-v1", BallSteering, 5)
+    """25 people x 4 behaviours: a ball that both steer."""
+    return people_suite("ball-v1", BallSteering.name, BallSteering.behaviours, BALL_PEOPLE)

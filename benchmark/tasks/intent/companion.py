@@ -6,17 +6,12 @@ from typing import Final
 import numpy as np
 from colift.agents.agent import FRAME, Action, HumanObservation, Observation
 from colift.agents.humans import SECOND_PERSON, ScriptedHuman
+from colift.agents.humans.felt import felt_force
 from colift.agents.tasks.intent.pose_filter import PoseFilter, PoseFilterParameters
 from colift.agents.tasks.touch.touched import TABLE_LENGTH
 
-FELT_FRAMES: Final = 5
-"""Newest frames of the felt force that are averaged."""
-
 VELOCITY_MEMORY: Final = 0.1
 """Time constant with which the seen velocity is smoothed [s]."""
-
-SUPPORT: Final = 1.717
-"""Half of the table's weight [N], which the hands feel when nothing else pulls."""
 
 FEELING: Final = PoseFilterParameters(switch=0.015, pitch_noise=0.05, path_noise=0.1, haste=0.5)
 """A person's touch is coarser than a robot's sensors, and a person's estimate of the partner
@@ -49,10 +44,8 @@ class Companion:
         self._look(observation[HumanObservation.OTHER_END][-frames:].tolist())
         near = self._height + self._velocity * self._delay
         own = float(observation[HumanObservation.OWN_HEIGHT][-1])
-        felt = observation[HumanObservation.HAND_FORCE][-FELT_FRAMES:].tolist()
-        force = math.fsum(felt) / len(felt) - SUPPORT
         sine = min(max((own - near) / TABLE_LENGTH, -0.9), 0.9)
-        self._filter.update(near, math.asin(sine), force)
+        self._filter.update(near, math.asin(sine), felt_force(observation))
         rate = self._filter.share * self._velocity
         meant = observation.copy()
         coming = FRAME * np.arange(1, frames + 1)

@@ -40,11 +40,11 @@ MANNERS: Final[Mapping[str, LeadingManner[float]]] = {
     "S4": LeadingManner(wrist=0.1, lead=0.0, patience=0.03),
     "S5": LeadingManner(wrist=-0.2, lead=0.2, patience=0.08),
 }
-"""The manners of the five subjects, spread over the ranges."""
+"""The manners of the stress people, placed at the ends of the ranges."""
 
 
 def leading_manner(subject: Subject) -> LeadingManner[float]:
-    """Return a person's manner: for the five subjects as stated, for others drawn by name."""
+    """Return a person's manner: for stress people as stated, for others drawn by name."""
     if subject.name in SUBJECTS:
         return MANNERS[subject.name]
     return LeadingManner(**drawn_traits(TRAITS, subject, 0x1EAD))

@@ -1,6 +1,6 @@
 """The pace at which a person goes through a plan, and the pose that the person intends there."""
 
-from typing import Final, Generic, NamedTuple
+from typing import Any, Final, Generic, NamedTuple
 
 from colift.agents.agent import FRAME
 from colift.agents.rules import ArrayFunctions, N, Series, at_time
@@ -30,12 +30,14 @@ class PaceSenses(NamedTuple, Generic[N]):
 
 def pace(
     f: ArrayFunctions[N],
-    manner: LeadingManner[N],
+    manner: Any,
     memory: PaceMemory[N],
     senses: PaceSenses[N],
     frames: int,
 ) -> tuple[PaceMemory[N], list[N]]:
     """Return the memory after a step, and the time within the plan at the end of each frame of it.
+
+    The person's manner must have the ``patience`` [m].
 
     A person who sees the far end at a distance e from its planned height goes through the plan at
 

@@ -23,6 +23,8 @@ class LeadingIntention(NamedTuple, Generic[N]):
     """Intended height of the far end [m]."""
     pitch: Any
     """Pitch that the wrists turn towards [rad]."""
+    time: Any
+    """Time within the plan, in frames."""
 
 
 class Leads:
@@ -53,7 +55,7 @@ class Leads:
         memory, times = pace(f, drawn.manner, memory, senses, frames)
         path = PosePath(drawn.target, drawn.series.far)
         pose = f.along(lambda time: intended(f, drawn.manner, path, time, LENGTH), f.column(times))
-        return memory, LeadingIntention(*pose)
+        return memory, LeadingIntention(*pose, f.column(times))
 
     def drive(
         self, f: ArrayFunctions[N], drawn: Drawn[N], intention: Any, reference: N

@@ -15,7 +15,8 @@ INTENT_METRICS: Final = metric_table(
             missing="never",
             shown="board",
             meaning="root mean square distance of both ends from their intended heights over the "
-            "whole trial, by which policies are ranked",
+            "whole trial, by which policies are ranked; each frame of the plan that is not done at "
+            "the end counts with 250 mm",
             words=MetricWords(
                 question="Who finds the pose that the human intends?",
                 praise=("accurate", "more accurate", "most accurate"),
@@ -38,6 +39,23 @@ INTENT_METRICS: Final = metric_table(
                 absent="fails",
                 present="that did not fail",
                 note="until the robot's end stays within 10 mm of where it should be",
+            ),
+        ),
+        Metric(
+            name="finished",
+            symbol="finished",
+            label="Share of the plan done",
+            better="more",
+            missing="never",
+            shown="board",
+            meaning="share of the plan that person and robot have gone through at the end, to the "
+            "frame in which the table is down; less if the person still waits, or if an end is "
+            "more than 50 mm above the ground",
+            words=MetricWords(
+                noun="share of the plan done",
+                plain="how much of what the human intended was done in time",
+                note="share of the plan that was done at the end of the lift",
+                caption="Finished: share of the plan done.",
             ),
         ),
         Metric(
@@ -75,6 +93,7 @@ INTENT_METRICS: Final = metric_table(
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
             words=MetricWords(

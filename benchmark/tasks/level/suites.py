@@ -1,33 +1,24 @@
-"""The suites of colift itself."""
-
-from collections.abc import Sequence
+"""The suites of the task to keep the table level."""
 
 from colift.agents.humans import SUBJECTS
 from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.people import people_suite
+from colift.benchmark.suites.ranges import QUICK_PEOPLE, STANDARD_PEOPLE
 from colift.benchmark.suites.suite import Suite
-from colift.benchmark.tasks.level.task import BEHAVIOURS
+from colift.benchmark.tasks.level.task import BEHAVIOURS, Level
 
 
 def standard_suite() -> Suite:
-    """5 subjects x 4 behaviours x 15 lifts: the benchmark."""
-    return _grid("standard-v1", BEHAVIOURS, 15)
+    """75 people x 4 behaviours: the benchmark."""
+    return people_suite("standard-v1", Level.name, BEHAVIOURS, STANDARD_PEOPLE)
+
+
+def quick_suite() -> Suite:
+    """3 people x 4 behaviours: a first look."""
+    return people_suite("quick-v1", Level.name, BEHAVIOURS, QUICK_PEOPLE)
 
 
 def paper_suite() -> Suite:
     """5 subjects x 10 smooth lifts: the paper's Table I."""
-    return _grid("paper-v1", ("smooth",), 10)
-
-
-def quick_suite() -> Suite:
-    """12 lifts, one stratum of each behaviour: a first look."""
-    strata = zip(BEHAVIOURS, ("S1", "S2", "S3", "S5"), strict=True)
-    scenarios = tuple(make_scenario(behaviour, subject) for behaviour, subject in strata)
-    return Suite(name="quick-v1", scenarios=scenarios, seeds=(0, 1, 2))
-
-
-def _grid(name: str, behaviours: Sequence[str], seeds: int) -> Suite:
-    """Return the suite of every behaviour with every subject."""
-    scenarios = tuple(
-        make_scenario(behaviour, subject) for behaviour in behaviours for subject in SUBJECTS
-    )
-    return Suite(name=name, scenarios=scenarios, seeds=tuple(range(seeds)))
+    scenarios = tuple(make_scenario("smooth", subject) for subject in SUBJECTS)
+    return Suite(name="paper-v1", scenarios=scenarios, seeds=tuple(range(10)))

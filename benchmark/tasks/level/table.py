@@ -35,6 +35,15 @@ LEVEL_METRICS: Final = metric_table(
             ),
         ),
         Metric(
+            name="rmse_about_mean_mm",
+            symbol="about mean",
+            label="RMSE about the mean",
+            unit="mm",
+            missing="never",
+            meaning="the same about the lift's mean of Z1 - Z2: what remains of RMSE without a "
+            "constant tilt, which real pairs keep",
+        ),
+        Metric(
             name="abs_error_mm",
             symbol="error",
             label="Absolute error",
@@ -60,6 +69,7 @@ LEVEL_METRICS: Final = metric_table(
             better="more",
             missing="worst",
             shown="board",
+            gentle=True,
             meaning="smoothness of the robot's end, mean over the human's strokes: spectral arc "
             "length (20 Hz, threshold 0.05); nearer to zero is smoother",
             words=MetricWords(
@@ -86,11 +96,22 @@ LEVEL_METRICS: Final = metric_table(
             words=MetricWords(note="smoothness of the robot's end, closer to 0 is smoother"),
         ),
         Metric(
+            name="rest_speed_mm_s",
+            symbol="trembling",
+            label="Trembling",
+            unit="mm/s",
+            digits=1,
+            gentle=True,
+            meaning="root mean square speed of the robot's end while the human rests, from 0.5 s "
+            "after a stroke on",
+        ),
+        Metric(
             name="human_force_n",
             symbol="force",
             label="Human force",
             unit="N",
             shown="board",
+            gentle=True,
             meaning="root mean square of the vertical force at the human's hands, beyond their "
             "half of the table's weight",
             words=MetricWords(

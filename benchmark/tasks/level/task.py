@@ -34,7 +34,7 @@ from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.level.table import LEVEL_METRICS
 from colift.benchmark.world import PHYSICS, BodyParameters, BulletWorld, FarEnd, Physics
-from colift.benchmark.world.table import TABLE_LENGTH, WEIGHT_SHARE
+from colift.benchmark.world.table import TABLE, TABLE_LENGTH, Table
 from numpy.typing import NDArray
 
 BEHAVIOURS: Final = ("smooth", "pause", "jerky", "changing_goal")
@@ -70,10 +70,15 @@ class Level:
         return ()
 
     def world(
-        self, human: BodyParameters, far_end: FarEnd, *, physics: Physics | None = None
+        self,
+        human: BodyParameters,
+        far_end: FarEnd,
+        table: Table = TABLE,
+        *,
+        physics: Physics | None = None,
     ) -> BulletWorld:
         """Return the world of the table alone."""
-        return BulletWorld(human, far_end, physics=physics or self.physics)
+        return BulletWorld(human, far_end, table, physics=physics or self.physics)
 
     def robot_observation(self, lift: Playing) -> Observation:
         """Return the robot's senses."""
@@ -128,24 +133,39 @@ class Level:
         """Return the scores of :data:`.LEVEL_METRICS`.
 
         For a failed episode, force and work are computed from the frames that it has; it has no
-        smoothness and no lag.
+        smoothness and no lag. The part of a plan that is :func:`unfinished` counts like frames that
+        a failure cut off.
         """
         human, robot, horizon = trace.human_end, trace.robot_end, lift.horizon
-        felt = trace.human_force - WEIGHT_SHARE
+        felt = trace.human_force - lift.table.weight_share
+        over = horizon + (0 if failed else unfinished(lift))
         smoothness = functools.partial(metrics.stroke_smoothness, robot, human, lift.plan.strokes)
         nan, empty = math.nan, len(human) == 0
         return {
-            "rmse_mm": metrics.rmse_mm(human, robot, horizon=horizon),
-            "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=horizon),
+            "rmse_mm": metrics.rmse_mm(human, robot, horizon=over),
+            "rmse_about_mean_mm": metrics.rmse_about_mean_mm(human, robot, horizon=over),
+            "abs_error_mm": metrics.abs_error_mm(human, robot, horizon=over),
             "max_tilt_deg": nan if empty else metrics.max_tilt_deg(human, robot, TABLE_LENGTH),
             "sparc": nan if failed else smoothness(metric=sparc),
             "ldlj": nan if failed else smoothness(metric=ldlj),
+            "rest_speed_mm_s": nan if empty else metrics.rest_speed_mm_s(robot, lift.plan.strokes),
             "human_force_n": nan if empty else metrics.human_force_n(felt),
             "human_work_j": nan if empty else metrics.human_work_j(felt, trace.human_velocity),
             "robot_lag_ms": nan if failed else metrics.robot_lag_ms(human, robot),
             "short_of_goal_mm": 1000 * (lift.plan.goal - float(human.max(initial=0.0))),
             "clipped": lift.clipped(trace.action),
         }
+
+
+def unfinished(lift: Playing) -> int:
+    """Return the frames of a plan's movements that a person has not come to.
+
+    They are 0 for a person whose intention has no ``time``, who goes along with the clock.
+    """
+    strokes = lift.plan.strokes
+    if "time" not in lift.intention._fields or not strokes:
+        return 0
+    return max(math.ceil(strokes[-1][1] - lift.seen("time", 0)), 0)
 
 
 LEVEL: Final = Level()

@@ -155,3 +155,23 @@ def test_learning_on_an_ideal_table_converges_about_as_fast_as_in_the_paper():
     iterations = (~right).cumsum(axis=1).argmax(axis=1) + 2
     # The paper's median of ten trials is 36.
     assert 30 <= np.median(iterations) <= 45
+
+
+def settles(seed, limit, iterations=200):
+    """Return whether the greedy actions are right at the end, with an arm that does as it is told.
+
+    An action that would incline the table by more than ``limit`` [m] is cut to it.
+    """
+    learner, difference = QLearner(seed), 0.0
+    for _ in range(iterations):
+        state = state_of(difference)
+        action = learner.select(state)
+        before, change = abs(difference), ACTIONS[action] * Q_PARAMETERS.position_step
+        difference -= min(max(change, difference - limit), difference + limit)
+        learner.update(state, action, before - abs(difference), state_of(difference))
+    return learner.right
+
+
+def test_it_converges_on_the_lattice_of_whole_steps_and_not_beside_it():
+    assert all(settles(seed, 4 * Q_PARAMETERS.position_step) for seed in range(20))
+    assert not any(settles(seed, 4.5 * Q_PARAMETERS.position_step) for seed in range(20))

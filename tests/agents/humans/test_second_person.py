@@ -1,15 +1,23 @@
 """The second human of the human-human baseline."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 from colift.agents.agent import HumanObservation
 from colift.agents.humans import SECOND_PERSON, SecondPerson
+from colift.agents.humans.felt import FELT_HEIGHT, SUPPORT
 from colift.agents.humans.second_person import SecondPersonParameters
+from colift.agents.loading.policy_spec import InMemorySpec
+from colift.benchmark.execution.batches import play
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
 
 
-def view(own, other, frames=10):
-    """Return an observation of the last heights of the own and of the other end."""
+def view(own, other, frames=10, force=0.0):
+    """Return an observation of the last heights of both ends, and of a force [N]."""
     seen = np.zeros(HumanObservation.size(frames))
+    seen[HumanObservation.HAND_FORCE] = SUPPORT + force
     seen[HumanObservation.OWN_HEIGHT] = own[-10:]
     seen[HumanObservation.OTHER_END] = other[-10:]
     return seen
@@ -72,3 +80,28 @@ def test_it_acts_at_every_control_period(frames):
     assert np.isfinite(references).all()
     speed = np.diff(references).mean() if frames > 1 else 0.0005
     assert speed == pytest.approx(0.0005, abs=0.0002)
+
+
+def test_people_know_their_table():
+    assert pytest.approx(WEIGHT_SHARE) == SUPPORT
+    assert pytest.approx(TABLE_LENGTH**2 / GRIP_STIFFNESS) == FELT_HEIGHT
+
+
+def test_it_gives_way_to_what_it_feels():
+    """1 N more than the weight is felt as an own end 64 mm above the other one."""
+    still = np.full(10, 0.1)
+    heights = []
+    for force in (0.0, 1.0):
+        partner = noiseless(0.05)
+        heights.append(partner.act(view(still, still, force=force))[-1])
+    assert heights[0] - heights[1] == pytest.approx(0.12 * 0.064, rel=0.03)
+
+
+@pytest.mark.parametrize(("yielding", "swings"), [(0.12, False), (0.24, False), (0.5, True)])
+def test_a_pair_swings_only_with_far_more_yielding(yielding, swings):
+    parameters = SecondPersonParameters(yielding=yielding)
+    spec = InMemorySpec(
+        name="pair", factory=partial(SecondPerson, parameters=parameters), source=SecondPerson
+    )
+    (episode,) = play(spec, make_scenario("smooth", "S1", "human"), (0,))
+    assert (episode.scores["rmse_mm"] > 100.0) is swings

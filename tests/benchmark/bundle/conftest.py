@@ -6,7 +6,8 @@ from colift.agents.spec import InProcess
 from colift.base.errors import PolicyError
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
+
+from ...four import FOUR
 
 
 class Hostile(Copy):
@@ -47,7 +48,7 @@ class HostileSpec(InProcess):
 
 @pytest.fixture(scope="session")
 def hostile_run():
-    return run_suite(HostileSpec(), make_suite("quick-v1").with_seeds(3, 5))
+    return run_suite(HostileSpec(), FOUR.with_seeds(3, 5))
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.bundle.schema import results_schema
 from colift.benchmark.episode.metric import Metric, metric_table
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import shipped_baselines
+from colift.benchmark.results.baselines import play_baselines
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.table import LEVEL_METRICS
 from jsonschema import Draft202012Validator
@@ -24,7 +24,7 @@ def content(tmp_path_factory):
     suite = make_suite("quick-v1")
     run = run_suite(PolicySpec(text="hold"), suite)
     folder = tmp_path_factory.mktemp("bundle") / "hold"
-    write_bundle(folder, run, results(run, shipped_baselines(suite)).plain())
+    write_bundle(folder, run, results(run, play_baselines(suite)).plain())
     return json.loads((folder / "results.json").read_text())
 
 

@@ -43,13 +43,9 @@ def test_it_holds_what_the_design_says(run, bundle):
     assert low < summary["rmse_mm"]["mean"] < high
     rmse = [episode.scores["rmse_mm"] for episode in run.episodes]
     assert summary["rmse_mm"]["mean"] == pytest.approx(np.mean(rmse))
-    assert [group["behaviour"] for group in content["groups"]] == [
-        "smooth",
-        "pause",
-        "jerky",
-        "changing_goal",
-    ]
-    assert content["groups"][1]["rmse_mm"]["mean"] == pytest.approx(np.mean(rmse[3:6]))
+    groups = [(group["behaviour"], group["subject"]) for group in content["groups"]]
+    assert groups == [(each.behaviour, each.subject) for each in run.episodes]
+    assert [group["rmse_mm"]["mean"] for group in content["groups"]] == pytest.approx(rmse)
 
 
 def test_the_manifest_has_the_hash_of_every_other_file(bundle):
@@ -97,7 +93,7 @@ def test_a_file_in_the_way_is_refused(tmp_path):
 def test_a_policy_without_smoothness_has_none_in_the_bundle(tmp_path):
     still = run_suite(PolicySpec(text="hold"), make_suite("quick-v1").with_seeds(0, 1))
     content = results(still, {})
-    assert content.summary.metrics["sparc"] == MeanWithMissing(mean=None, missing=4)
+    assert content.summary.metrics["sparc"] == MeanWithMissing(mean=None, missing=12)
     write_bundle(tmp_path / "still", still, content.plain())
     with (tmp_path / "still" / "episodes.csv").open(newline="") as file:
         assert {row["sparc"] for row in csv.DictReader(file)} == {""}
@@ -136,8 +132,8 @@ def test_circumstances_are_in_the_results(run):
 
 def test_the_manifest_says_how_the_episodes_are_made_and_where_they_were(run, bundle):
     manifest = json.loads((bundle / "manifest.json").read_text())
-    assert manifest["recipe"]["seeds"] == [0, 1, 2]
-    assert manifest["recipe"]["scenarios"][1] == "pause/S2"
+    assert manifest["recipe"]["seeds"] == [0]
+    assert manifest["recipe"]["scenarios"][1] == "smooth/draw-2"
     assert manifest["platform"] == fingerprint()
 
 

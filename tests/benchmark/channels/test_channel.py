@@ -122,5 +122,12 @@ def test_a_recipe_has_all_numbers_as_floats():
 def test_a_bundle_has_the_hash_of_all_that_delays_and_loses_a_message():
     assert parse_recorded(recorded(CHANNELS["home"]), "it") == CHANNELS["home"]
     used = {each.name for each in Code().definitions(teleoperated, Channel, Link)}
-    assert {"schedule", "_delays", "_jitter", "_arrived", "Teleoperated", "channel_seed"} <= used
+    assert {
+        "schedule",
+        "link_delays",
+        "_jitter",
+        "_arrived",
+        "Teleoperated",
+        "channel_seed",
+    } <= used
     assert code_hash(teleoperated, Channel, Link) == recorded(CHANNELS["lan"])["code"]

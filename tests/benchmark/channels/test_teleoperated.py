@@ -17,10 +17,11 @@ from colift.benchmark.episode.seat import limited_command
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
-from colift.benchmark.suites.suite import make_suite
 from colift.robots.nao.kinematics import STROKE
 
-SUITE = make_suite("quick-v1").with_seeds(3, 4)
+from ...four import FOUR
+
+SUITE = FOUR.with_seeds(3, 4)
 ONE = dataclasses.replace(SUITE, scenarios=SUITE.scenarios[:1])
 LATE = Link(delay=0.1)
 LOSSY = Channel(

@@ -12,10 +12,12 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.table import LEVEL_METRICS
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 
+SUBJECTS = tuple(f"P{i}" for i in range(1, 9))
+
 CELLS = tuple(
-    (behaviour, subject) for behaviour in BEHAVIOURS for subject in ("S1", "S2") for _ in range(8)
+    (behaviour, subject) for behaviour in BEHAVIOURS for subject in SUBJECTS for _ in range(2)
 )
-"""Eight lifts of each of two subjects on each behaviour."""
+"""Two lifts of each of eight people on each behaviour."""
 
 DIFFICULTY = np.array([6.0 if behaviour != "jerky" else 20.0 for behaviour, _ in CELLS])
 

@@ -43,10 +43,10 @@ def test_moving_only_when_it_is_easy_does_not_make_a_point_smooth() -> None:
     assert dominates(SMOOTH, easy)
 
 
-def test_a_bound_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
+def test_a_reference_neither_is_on_it_nor_keeps_a_policy_off_it() -> None:
     rmse = Estimate(mean=0.1, ci95=(0.0, 0.2))
     assert front(
-        LEVEL, FrontPoint(name="oracle", rmse_mm=rmse, second=exact(-1.0), kind="bound")
+        LEVEL, FrontPoint(name="oracle", rmse_mm=rmse, second=exact(-1.0), kind="reference")
     ) == ["level"]
 
 

@@ -15,7 +15,7 @@ from colift.benchmark.results.baselines import (
     HUMAN_HUMAN_LABEL,
     human_human_run,
     shipped_baselines,
-    shipped_bounds,
+    shipped_references,
 )
 from colift.benchmark.suites.suite import Suite, make_suite
 
@@ -46,16 +46,18 @@ def list_of(value: object) -> list[object]:
     return list(value) if isinstance(value, list | tuple) else [value]
 
 
-def test_the_bounds_are_there_when_they_are_shipped(quick: Suite, played: PairedResults) -> None:
-    assert played.bounds == shipped_bounds(quick)
-    told = comparison_json(compare(played))["bounds"]
-    assert [bound["name"] for bound in told] == ["causal_bound", "oracle"]
+def test_the_references_are_there_when_they_are_shipped(
+    quick: Suite, played: PairedResults
+) -> None:
+    assert played.references == shipped_references(quick)
+    told = comparison_json(compare(played))["references"]
+    assert [reference["name"] for reference in told] == ["best_known", "oracle"]
     assert told[1]["rmse_mm"]["ci95"][1] < told[0]["rmse_mm"]["ci95"][0]
     page = html_page(compare(played))
     parts = page.replace("<wbr>", "").split("<table")[1:]
     tables = [part.partition("</table>")[0] for part in parts]
-    for name in (HUMAN_HUMAN_LABEL, "oracle", "causal_bound"):
-        assert [name in table for table in tables] == [True, False, True]
+    for name in (HUMAN_HUMAN_LABEL, "oracle", "best known (trained)"):
+        assert [name in table for table in tables] == [True, False, True, True]
 
 
 def test_the_human_human_baseline_is_the_one_shipped_or_is_played(
@@ -66,7 +68,7 @@ def test_the_human_human_baseline_is_the_one_shipped_or_is_played(
     counted: list[int] = []
     copies = {"a": PolicySpec(text="copy"), "b": PolicySpec(text="copy")}
     found = play_policies(copies, other, progress=counted.append)
-    assert found.bounds == {}
+    assert found.references == {}
     human_human = human_human_run(other)
     assert list(found.human_human.rmse_mm) == [
         episode.scores["rmse_mm"] for episode in human_human.episodes

@@ -19,6 +19,7 @@ from colift.base.identity import Code, Module
 from colift.base.identity.statements import Statement
 from colift.base.registry import HUMANS, POLICIES, ROBOTS, TASKS, lookup, own_entries, own_policies
 from colift.benchmark import episode, tasks, world
+from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.episode.identity import PLAYS_AND_SCORES, SIMULATES, stated
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.episode.loop import run_episode
@@ -40,13 +41,14 @@ ACCEPTANCE = tuple(
     for name in ("artefacts", "copies", "foreign_files", "goals", "recording_file", "treatment")
 )
 """What refuses or describes recordings and live lifts: those that play do not depend on it."""
-NOT_IN_SUITES = ("oracle", "rehearsal", "suites")
-"""Modules of tasks that play, as policies do, or state suites, whose scenarios and seeds count."""
+NOT_IN_SUITES = ("oracle", "rehearsal", "suites", "telling")
+"""Modules of tasks that play, as policies do, inform players, or state suites, whose scenarios and
+seeds count."""
 AT_IMPORTS = {("colift.registration", "_Awaited")}
 """What is asked at every import, such as a policy's late one, and waits for Gymnasium."""
 LIVE = (humans.Played, humans.Cued, humans.HandLog, humans.PersonAsRobot)
 BEYOND = [lookup(group, name) for group in (TASKS, HUMANS, ROBOTS) for name in own_entries(group)]
-SUITE = (*PLAYS_AND_SCORES, Scenario, humans.Subject, humans.Recording, *LIVE, *BEYOND)
+SUITE = (*PLAYS_AND_SCORES, Scenario, Conditions, humans.Subject, humans.Recording, *LIVE, *BEYOND)
 """The roots of what a suite's digest has of the code, all tasks and live lifts included."""
 
 PLAY = """
@@ -58,7 +60,8 @@ from colift.benchmark.suites.suite import make_suite
 suites = [make_suite("quick-v1")]
 for name in own_entries(SUITES):
     suite = make_suite(name)
-    if suite.scenarios[0].task.name != "level":
+    first = suite.scenarios[0]
+    if first.task.name != "level" or first.conditions is not None:
         few = suite.scenarios[:: len(suite.scenarios) // 3]
         suites.append(dataclasses.replace(suite, scenarios=few, seeds=(0,)))
 runs = [run_suite(PolicySpec(text="copy"), suite) for suite in suites]
@@ -213,7 +216,7 @@ def test_what_runs_is_in_a_digest(code, of_suite, name):
     """What plays and scores a lift is in the suite's, what decides in the policy's."""
     policy = PolicySpec(text=name).load()
     known = of_suite | set(code.definitions(policy))
-    scenarios = make_suite("quick-v1").scenarios[2:4]
+    scenarios = make_suite("quick-v1").scenarios[8:10]
 
     def play():
         for scenario in scenarios:  # A person takes over from the last one, as in every run.

@@ -17,6 +17,7 @@ from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.task import Level
+from colift.benchmark.world.table import TABLE
 
 COPY = PolicySpec(text="copy")
 
@@ -68,9 +69,9 @@ def test_a_run_leaves_no_world():
 class Stiffer(Level):
     """A task whose worlds change the person."""
 
-    def world(self, human, far_end, *, physics=None):
+    def world(self, human, far_end, table=TABLE, *, physics=None):
         human = dataclasses.replace(human, stiffness=2 * human.stiffness)
-        return super().world(human, far_end, physics=physics)
+        return super().world(human, far_end, table, physics=physics)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,6 +9,8 @@ from colift.benchmark.episode.metrics import (
     human_force_n,
     human_work_j,
     max_tilt_deg,
+    rest_speed_mm_s,
+    rmse_about_mean_mm,
     rmse_mm,
     robot_lag_ms,
     stroke_smoothness,
@@ -42,6 +44,16 @@ class TestErrors:
 
     def test_absolute_error_sums_over_frames_without_cancelling(self) -> None:
         assert abs_error_mm([0.010, 0.0, 0.020], [0.0, 0.010, 0.015]) == pytest.approx(25.0)
+
+    def test_about_the_mean_a_constant_tilt_is_no_error(self) -> None:
+        level = lift_and_lower()
+        assert rmse_about_mean_mm(level, level + 0.012) == pytest.approx(0.0, abs=1e-9)
+        assert rmse_about_mean_mm(np.zeros(2), np.array([0.002, 0.006])) == pytest.approx(2.0)
+        tilted = lift_and_lower(0.2) + 0.005
+        mean = 1000 * float(np.mean(level - tilted))
+        whole = math.hypot(rmse_about_mean_mm(level, tilted), mean)
+        assert whole == pytest.approx(rmse_mm(level, tilted))
+        assert rmse_about_mean_mm(np.zeros(3), np.ones(3), horizon=4) == pytest.approx(125.0)
 
     def test_frames_cut_off_by_a_failure_count_250_mm(self) -> None:
         assert FAILED_FRAME_MM == 250.0
@@ -200,3 +212,22 @@ class TestLag:
     def test_beyond_the_range_it_is_the_end_of_the_range(self) -> None:
         assert robot_lag_ms(move(1.0), move(2.5)) == 1000.0
         assert robot_lag_ms(move(1.5), move(0.5)) == -300.0
+
+
+class TestTrembling:
+    def test_it_is_the_speed_of_a_sine_at_rest_whatever_the_strokes(self) -> None:
+        sine = 0.002 * np.sin(2 * np.pi * 2 * T)
+        found = rest_speed_mm_s(lift_and_lower() + sine, STROKES)
+        assert found == pytest.approx(2 * 2 * np.pi * 2 / np.sqrt(2), rel=0.03)
+        assert rest_speed_mm_s(lift_and_lower(), STROKES) == pytest.approx(0.0, abs=1e-9)
+
+    def test_a_late_end_has_half_a_second(self) -> None:
+        assert rest_speed_mm_s(lift_and_lower(0.45), STROKES) == pytest.approx(0.0, abs=0.01)
+        assert rest_speed_mm_s(lift_and_lower(0.9), STROKES) > 10.0
+
+    def test_without_a_rest_there_is_none(self) -> None:
+        assert math.isnan(rest_speed_mm_s(lift_and_lower(), [(0, 800)]))
+
+    def test_one_frame_has_no_speed(self) -> None:
+        with pytest.raises(InputError, match="height has 1 frame"):
+            rest_speed_mm_s(T[:1], STROKES)

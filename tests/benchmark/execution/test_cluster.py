@@ -24,14 +24,15 @@ from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.provenance import origin
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.profiling.loopback import loopback_cluster
-from colift.benchmark.suites.suite import make_suite
+
+from ...four import FOUR
 
 pytestmark = pytest.mark.slow
 
 distributed = pytest.importorskip("distributed", reason="needs Dask: uv sync --all-extras")
 
-SUITE = make_suite("quick-v1").with_seeds(0, 1)
-LONGER = make_suite("quick-v1").with_seeds(0, 3)
+SUITE = FOUR.with_seeds(0, 1)
+LONGER = FOUR
 COPY = PolicySpec(text="copy")
 SANDBOXED = SandboxedPolicy(name="copy", origin="colift.agents.policies.copy:Copy")
 

@@ -13,9 +13,10 @@ from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution.batches import Batch, Faults, batches, run_batches
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
 
-SUITE = make_suite("quick-v1").with_seeds(0, 2)
+from ...four import FOUR
+
+SUITE = FOUR.with_seeds(0, 2)
 
 FAILING = """
 import os

@@ -7,7 +7,8 @@ from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.submissions.submission import read_submission
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
+
+from ...four import FOUR
 
 MANIFEST = """
 name = "mixed"
@@ -38,7 +39,7 @@ class Policy:
         return {"estimate": self.estimate[0]}
 """
 
-SUITE = make_suite("quick-v1").with_seeds(0, 1)
+SUITE = FOUR.with_seeds(0, 1)
 
 
 @pytest.fixture(scope="module")

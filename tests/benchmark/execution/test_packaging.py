@@ -17,9 +17,10 @@ from colift.agents.submissions.submission import open_submission
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.execution.packaging import packaged
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
 
-SUITE = make_suite("quick-v1").with_seeds(0, 1)
+from ...four import FOUR
+
+SUITE = FOUR.with_seeds(0, 1)
 
 MINE = """
 import numpy as np
@@ -38,11 +39,10 @@ class Mine:
 ELSEWHERE = """
 import pickle, sys
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
 
 if __name__ == "__main__":
-    policy = pickle.load(sys.stdin.buffer)
-    run = run_suite(policy, make_suite("quick-v1").with_seeds(0, 1))
+    suite, policy = pickle.load(sys.stdin.buffer)
+    run = run_suite(policy, suite)
     print(run.policy, run.policy_digest, run.isolation)
     for episode in run.episodes:
         print(episode.trace.digest(), episode.failure)
@@ -68,7 +68,7 @@ def elsewhere(policy, home):
     """Return what a machine says that plays the policy, and has another home and nothing else."""
     done = subprocess.run(
         [sys.executable, "-c", ELSEWHERE],
-        input=pickle.dumps(policy),
+        input=pickle.dumps((SUITE, policy)),
         capture_output=True,
         cwd=home,
         env={**os.environ, "XDG_CACHE_HOME": str(home)},

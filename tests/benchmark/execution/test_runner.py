@@ -15,11 +15,13 @@ from colift.benchmark.suites.suite import make_suite
 QUICK = "quick-v1"
 
 FRESH = """
+import dataclasses
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
-run = run_suite(PolicySpec(text="copy"), make_suite("quick-v1").with_seeds(1, 2))
-print(run.episodes[2].trace.digest())
+suite = make_suite("quick-v1")
+suite = dataclasses.replace(suite, scenarios=suite.scenarios[7:8])
+print(run_suite(PolicySpec(text="copy"), suite).episodes[0].trace.digest())
 """
 
 

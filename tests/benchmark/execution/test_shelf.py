@@ -14,10 +14,11 @@ from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution import shelf
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.suites.suite import make_suite
+
+from ...four import FOUR
 
 POLICY = PolicySpec(text="ekf_minimum_jerk")
-SUITE = make_suite("quick-v1").with_seeds(0, 1)
+SUITE = FOUR.with_seeds(0, 1)
 
 
 class Echo(Executor):

@@ -38,6 +38,7 @@ def test_the_files_are_those_of_version_3(written):
     assert files == [
         "README.md",
         "colift.json",
+        "croissant.json",
         "data/chunk-000/file-000.parquet",
         "meta/episodes/chunk-000/file-000.parquet",
         "meta/info.json",

@@ -151,6 +151,7 @@ def test_only_an_older_export_is_replaced_and_only_if_asked(bundle, boxes, prove
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "README.md",
         "colift.json",
+        "croissant.json",
         "data",
     ]
     assert json.loads((tmp_path / "out" / "colift.json").read_text())["policy"] == "uneven"

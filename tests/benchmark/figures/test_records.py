@@ -24,18 +24,18 @@ RECORD = FigureRecord(origin=ORIGIN, files=FILES)
 
 
 def test_an_origin_has_the_digests_of_suites_policies_and_code(tmp_path):
-    figure = dataclasses.replace(FIGURE, code=("benchmark.bounds.oracle:foreknow",))
+    figure = dataclasses.replace(FIGURE, code=("benchmark.references.oracle:foreknow",))
     origin = origin_of(figure, tmp_path)
     assert origin["command"] == "colift list"
     assert origin["suite quick-v1"] == make_suite("quick-v1").digest
     assert origin["policy copy"] == PolicySpec(text="copy").digest()
-    assert len(origin["code benchmark.bounds.oracle:foreknow"]) == 16
+    assert len(origin["code benchmark.references.oracle:foreknow"]) == 16
     everything = origin_of(dataclasses.replace(FIGURE, policies=("*",)), tmp_path)
     assert sum(name.startswith("policy ") for name in everything) == len(own_policies("level"))
 
 
 @pytest.mark.parametrize(
-    "place", ["benchmark.bounds.oracle:nothing", "benchmark.nowhere:x", "benchmark"]
+    "place", ["benchmark.references.oracle:nothing", "benchmark.nowhere:x", "benchmark"]
 )
 def test_code_that_does_not_exist_is_an_error(place, tmp_path):
     with pytest.raises(InputError, match="there is no"):

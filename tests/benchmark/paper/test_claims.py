@@ -8,6 +8,7 @@ import pytest
 from colift.agents.control.q_learning import ACTIONS
 from colift.benchmark.paper.exhibits import Claim
 from colift.benchmark.paper.report import median_lift
+from colift.benchmark.paper.table_one import single_lifts
 from colift.benchmark.paper.topics.learning import learning_claims, levels
 from colift.benchmark.paper.topics.table import FEWEST, SURE, table_claims
 from colift.benchmark.paper.topics.timing import timing_claims
@@ -70,7 +71,9 @@ def test_lifts_that_are_too_few_for_any_small_p_are_told(made, lifts):
     rows = tuple(dataclasses.replace(row, p=0.02) for row in table.rows)
     note = table_claims(dataclasses.replace(table, rows=rows, lifts=lifts))[0].note
     apart = np.arange(1.0, lifts + 1)
-    assert ("can give no p below" in note) == (paired_permutation_p(apart, 0 * apart) >= SURE)
+    assert ("can give no p below" in note) == (
+        paired_permutation_p(apart, 0 * apart, single_lifts(apart)) >= SURE
+    )
 
 
 def test_timing_claims_tell_one_value_a_period(made):

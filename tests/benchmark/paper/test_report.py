@@ -71,6 +71,7 @@ def test_claims_have_all_their_fields(made):
             "measured",
             "values",
             "holds",
+            "fitted",
             "note",
         ]
         assert isinstance(claim["holds"], bool)
@@ -85,6 +86,29 @@ def test_every_claim_is_on_both_pages(made):
         assert claim.claim in text
     assert page.count('<li class="no">') == sum(not claim.holds for claim in made.report.claims)
     assert page.count('<li class="yes">') == sum(claim.holds for claim in made.report.claims)
+
+
+def test_fitted_claims_are_counted_apart(made):
+    page, text = ((made.folder / f"report.{kind}").read_text() for kind in ("html", "md"))
+    claims = made.report.claims
+    fitted = [claim for claim in claims if claim.fitted]
+    assert {claim.figure for claim in fitted} == {"Table I", "figure 9, Table I"}
+    own, other = len(fitted), len(claims) - len(fitted)
+    counted = re.search(r"(\d+) of (\d+) independent ones, and (\d+) of (\d+) to which", page)
+    held = sum(claim.holds for claim in fitted), sum(claim.holds for claim in claims)
+    assert tuple(map(int, counted.groups())) == (held[1] - held[0], other, held[0], own)
+    assert counted[0] in text
+    assert text.count(", fitted\n") == page.count(", fitted</span>") == own
+
+
+def test_both_latencies_stand_beside_the_paper(made):
+    text = (made.folder / "report.md").read_text()
+    runs = (made.evidence.blend, made.evidence.fresh.blend)
+    means = [np.mean([e.scores["rmse_mm"] for e in run.episodes]) for run in runs]
+    (line,) = (each for each in text.splitlines() if each.startswith("| blend |"))
+    cells = [cell.split()[0] for cell in line.strip("| ").split(" | ")]
+    assert cells[2:] == [f"{mean:.2f}" for mean in means]
+    assert means[1] < 0.7 * means[0]
 
 
 def test_the_table_is_the_mean_of_the_runs_beside_the_papers(made):

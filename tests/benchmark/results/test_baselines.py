@@ -1,4 +1,4 @@
-"""The baselines (the human-human baseline, hold, copy), and the bounds shipped with them."""
+"""The baselines (the human-human baseline, hold, copy), and the references shipped with them."""
 
 import dataclasses
 import gc
@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.registry import SUITES, own_entries
-from colift.benchmark.bounds.catalogue import suite_bounds
 from colift.benchmark.bundle import results
-from colift.benchmark.comparison.playing import play_bounds
+from colift.benchmark.comparison.playing import play_references
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import on_boards
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.paper.table_one import HUMAN_HUMAN_RMSE
+from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
     ToShip,
@@ -22,7 +22,7 @@ from colift.benchmark.results.baselines import (
     human_human_run,
     play_baselines,
     shipped_baselines,
-    shipped_bounds,
+    shipped_references,
 )
 from colift.benchmark.suites.suite import make_suite
 
@@ -57,9 +57,9 @@ def test_every_suite_has_its_baselines_shipped(name):
     suite = make_suite(name)
     shipped = shipped_baselines(suite)
     assert set(shipped) == {"human_human", "hold", "copy"}
-    bounds = shipped_bounds(suite)
-    assert set(bounds) == set(suite_bounds(suite)) >= {"oracle"}
-    for baseline in (*shipped.values(), *bounds.values()):
+    references = shipped_references(suite)
+    assert set(references) == set(suite_references(suite)) >= {"oracle"}
+    for baseline in (*shipped.values(), *references.values()):
         assert len(baseline.rmse_mm) == len(baseline.strata) == suite.size
         assert baseline.means.keys() == {metric.name for metric in on_boards(suite.metrics)}
 
@@ -77,11 +77,11 @@ def test_the_shipped_ones_are_what_the_code_gives(quick, played):
                 assert baseline.means[metric] == pytest.approx(value, rel=1e-6)
 
 
-def test_the_shipped_bounds_are_what_the_code_gives(quick):
-    """If this fails, the bound was learned anew or a number has changed: as above."""
+def test_the_shipped_references_are_what_the_code_gives(quick):
+    """If this fails, the reference was learned anew or a number has changed: as above."""
     some = dataclasses.replace(quick.with_seeds(0, 1), scenarios=quick.scenarios[1:2])
-    for name, played in play_bounds(suite_bounds(some), some).items():
-        shipped = shipped_bounds(quick)[name]
+    for name, played in play_references(suite_references(some), some).items():
+        shipped = shipped_references(quick)[name]
         at = shipped.strata.index(played.strata[0])
         assert shipped.rmse_mm[at] == pytest.approx(played.rmse_mm[0], rel=1e-6)
 
@@ -92,10 +92,12 @@ def test_other_episodes_have_none_shipped(quick):
 
 
 def test_the_shipped_file_can_be_read_back(quick, played):
-    bounds = {"copy": played["copy"]}
-    content = json.loads(baselines_json([ToShip(suite=quick, baselines=played, bounds=bounds)]))
+    references = {"copy": played["copy"]}
+    content = json.loads(
+        baselines_json([ToShip(suite=quick, baselines=played, references=references)])
+    )
     assert content[quick.digest]["suite"] == "quick-v1"
-    assert list(content[quick.digest]["bounds"]) == ["copy"]
+    assert list(content[quick.digest]["references"]) == ["copy"]
     assert content[quick.digest]["baselines"]["copy"]["rmse_mm"] == list(played["copy"].rmse_mm)
 
 
@@ -119,15 +121,17 @@ def test_the_human_human_baseline_beats_copying_wherever_the_human_moves_smoothl
             assert human_human[stratum].mean < 0.6 * copy[stratum].mean
 
 
-def test_vs_human_is_the_ratio_of_the_means_with_a_paired_interval(quick, played):
+def test_vs_human_is_the_mean_ratio_lift_by_lift_with_a_paired_interval(quick, played):
     run = run_suite(PolicySpec(text="copy"), quick)
     content = results(run, played)
     versus = content.summary.vs_human
     human_human = played[HUMAN_HUMAN]
-    assert versus.mean == pytest.approx(np.mean(played["copy"].rmse_mm) / human_human.mean)
+    logs = np.log(np.divide(played["copy"].rmse_mm, human_human.rmse_mm))
+    assert versus.mean == pytest.approx(np.exp(logs.mean()))
     low, high = versus.ci95
     assert 1 < low < versus.mean < high
-    assert content.strata[0].human_human_rmse_mm == pytest.approx(np.mean(human_human.rmse_mm[:3]))
+    assert content.strata[0].vs_human == pytest.approx(np.exp(logs[0]))
+    assert content.strata[0].human_human_rmse_mm == pytest.approx(human_human.rmse_mm[0])
     assert content.baselines[HUMAN_HUMAN].mean == pytest.approx(human_human.mean)
 
 

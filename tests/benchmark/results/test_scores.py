@@ -12,13 +12,14 @@ from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
     mean_of_strata,
+    spread_over_people,
     stratum_scores,
 )
 from colift.benchmark.statistics import (
+    geometric_ratio,
     mean_of,
     paired_difference,
     probability_better,
-    ratio_of_means,
 )
 from colift.benchmark.suites.suite import make_suite
 
@@ -90,11 +91,52 @@ def test_parts_have_their_own_lifts_in_order(copy, scores):
 def test_against_another_agent_lifts_are_paired(scores, hold):
     mine, other = np.array(scores.rmse_mm), np.array(hold.rmse_mm)
     found = scores.against(hold)
-    assert found.ratio == ratio_of_means(mine, other, scores.strata)
-    assert found.difference == paired_difference(mine, other, scores.strata)
+    assert found.ratio == geometric_ratio(mine, other, scores.units)
+    assert found.difference == paired_difference(mine, other, scores.units)
     assert found.tested(0.25).p == 0.25
-    assert found.probability == probability_better(mine, other, scores.strata)
-    assert scores.error == scores.estimate(LEADING) == mean_of(mine, scores.strata)
+    assert found.probability == probability_better(np.log(mine), np.log(other), scores.units)
+    assert scores.error == scores.estimate(LEADING) == mean_of(mine, scores.units)
+
+
+def test_the_probability_agrees_with_the_interval_of_the_ratio(scores, hold):
+    found = hold.against(scores)
+    assert found.ratio.ci95[0] > 1.0
+    assert found.probability < 0.025
+
+
+def test_a_recording_is_a_unit_of_its_own_and_not_its_body():
+    """Two named people with three lifts each, in the bodies of S1 to S5 in turn."""
+    from colift.agents.humans import Recorded, Recording
+    from colift.benchmark.episode.scenario import Scenario
+    from colift.benchmark.suites.catalogue import make_subject, make_task
+
+    def scenario(trial, person, body):
+        recording = Recording(
+            name=trial, times=(0.0, 1.0, 2.0), heights=(0.0, 0.2, 0.0), person=person
+        )
+        return Scenario(
+            behaviour="recorded",
+            human=Recorded(recording=recording),
+            trial=trial,
+            subject=make_subject(body),
+            task=make_task("level"),
+        )
+
+    assert scenario("one", "Ada", "S1").person == scenario("two", "Ada", "S2").person == "Ada"
+    assert scenario("one", "", "S1").person == "one"
+
+
+def test_people_are_stored_where_they_are_not_the_subjects():
+    table = ScoreTable(
+        strata=(("recorded", "S1"), ("recorded", "S2"), ("recorded", "S3")),
+        people=("Ada", "Ada", "Grace"),
+        values={LEADING: (1.0, 2.0, 4.0)},
+    )
+    stored = ScoreTable.read(table.plain())
+    assert stored.people == table.people
+    assert stored.units.count == table.select([0, 1, 2]).units.count == 2
+    with pytest.raises(ValueError, match="2 people for 3 lifts"):
+        ScoreTable.read({**table.plain(), "people": ["Ada", "Grace"]})
 
 
 def test_a_stored_table_has_the_errors_and_the_means(scores, suite):
@@ -115,6 +157,18 @@ def test_failed_lifts_are_counted(scores):
     failing = ScoreTable(strata=scores.strata, values=scores.values, failures=failures)
     assert failing.failed == len(failures) // 2
     assert failing.select([1, 2]).failures == ("step 3: oops", None)
+
+
+def test_the_spread_is_over_the_means_of_each_person(scores, hold):
+    strata = stratum_scores(scores, hold)
+    means = {name: scores.part(subject=name).mean for _, name in scores.strata}
+    spread = spread_over_people(strata)
+    assert spread.people == len(means) == 3
+    assert (spread.best, spread.median, spread.worst) == pytest.approx(sorted(means.values()))
+    assert spread.lower == pytest.approx((spread.best + spread.median) / 2)
+    assert means[spread.worst_person] == pytest.approx(spread.worst)
+    assert spread.better == 3  # Holding still is worse with everyone.
+    assert spread_over_people(stratum_scores(scores, None)).better is None
 
 
 def test_means_over_strata_are_those_over_their_lifts(scores, hold):

@@ -1,38 +1,51 @@
-"""The paired sign-flip test."""
+"""The paired sign-flip test, by people."""
 
 import itertools
 
 import numpy as np
 import pytest
 from colift.base.errors import InputError
-from colift.benchmark.statistics import paired_permutation_p, permutation_ps_against
-from colift.benchmark.statistics.permutation import far_apart, sequential_permutation_ps
+from colift.benchmark.statistics import Units, paired_permutation_p
+from colift.benchmark.statistics.permutation import far_apart
+
+
+def single(number: int) -> Units:
+    return Units.episodes(["all"] * number)
 
 
 def test_five_differences_of_one_sign_have_p_of_one_sixteenth():
     a = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
-    p = paired_permutation_p(a, a - [0.5, 0.6, 0.7, 0.8, 0.9], resamples=40_000)
-    assert p == pytest.approx(2 / 2**5, abs=0.005)
+    p = paired_permutation_p(a, a - [0.5, 0.6, 0.7, 0.8, 0.9], single(5))
+    assert p == 2 / 2**5
+
+
+def test_lifts_of_five_people_have_no_more_than_thirty_two_signs():
+    units = Units.people((way, person) for person in range(5) for way in range(20))
+    assert paired_permutation_p(np.ones(100), np.zeros(100), units) == 2 / 2**5
+    assert paired_permutation_p(np.ones(100), np.zeros(100), single(100)) < 0.001
 
 
 def test_no_difference_has_p_of_one():
-    assert paired_permutation_p([1.0, 2.0], [1.0, 2.0]) == 1.0
+    assert paired_permutation_p([1.0, 2.0], [1.0, 2.0], single(2)) == 1.0
 
 
 def test_the_order_of_the_two_does_not_matter():
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=30), rng.normal(0.4, size=30)
-    assert paired_permutation_p(a, b) == paired_permutation_p(b, a)
+    assert paired_permutation_p(a, b, single(30)) == paired_permutation_p(b, a, single(30))
 
 
 def test_p_is_never_below_what_the_resamples_can_tell():
-    assert paired_permutation_p(np.arange(40.0) + 5, np.arange(40.0), resamples=99) == 0.01
+    a = np.arange(40.0) + 5
+    assert paired_permutation_p(a, np.arange(40.0), single(40), resamples=99) == 0.01
 
 
-def test_p_is_uniform_when_there_is_nothing_to_find():
+@pytest.mark.parametrize("people", [12, 30])
+def test_p_is_uniform_when_there_is_nothing_to_find(people):
     rng = np.random.default_rng(1)
+    units = single(people)
     ps = [
-        paired_permutation_p(rng.normal(size=12), rng.normal(size=12), resamples=400)
+        paired_permutation_p(rng.normal(size=people), rng.normal(size=people), units)
         for _ in range(400)
     ]
     assert np.mean(np.array(ps) < 0.1) == pytest.approx(0.1, abs=0.04)
@@ -40,27 +53,7 @@ def test_p_is_uniform_when_there_is_nothing_to_find():
 
 def test_a_missing_value_is_refused():
     with pytest.raises(InputError, match=r"a\[1\] is nan"):
-        paired_permutation_p([1.0, np.nan], [1.0, 2.0])
-
-
-def test_a_sequential_p_is_the_plain_one_if_all_flips_are_made_and_near_it_if_not() -> None:
-    rng = np.random.default_rng(2)
-    differences = rng.normal(0.0, 1.0, (40, 60)) + np.linspace(0.0, 0.6, 40)[:, None]
-    zero = np.zeros(60)
-    plain = np.array(permutation_ps_against(zero, list(-differences)))
-    found = sequential_permutation_ps(differences)
-    few = plain < 0.05
-    assert 5 < few.sum() < 35
-    assert (found[few] == plain[few]).all()
-    assert found[~few] == pytest.approx(plain[~few], rel=0.4)
-    assert (found[~few] > 0.05).all()
-
-
-def test_more_flips_than_one_draw_give_smaller_p_values_to_those_who_need_them() -> None:
-    differences = np.stack((np.ones(40), np.zeros(40)))
-    found = sequential_permutation_ps(differences, resamples=30_000)
-    assert found[0] == pytest.approx(1 / 30_001)
-    assert found[1] == 1.0
+        paired_permutation_p([1.0, np.nan], [1.0, 2.0], single(2))
 
 
 @pytest.mark.parametrize("p", [0.05, 0.01, 1e-3, 1e-4])

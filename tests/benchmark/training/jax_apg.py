@@ -34,7 +34,7 @@ def whole(pool):
 @pytest.fixture(autouse=True)
 def _short(monkeypatch, pool):
     """Draw the lifts once; two points on the curve, of few lifts."""
-    monkeypatch.setattr(level_lesson, "draw_pool", lambda lifts, wide: pool)
+    monkeypatch.setattr(level_lesson, "draw_pool", lambda lifts, wide, unsettled: pool)
     monkeypatch.setattr(apg_course, "EVERY", 2)
     monkeypatch.setattr(level_lesson, "validation_error", lambda make: 1.0)
 

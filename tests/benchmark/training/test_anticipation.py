@@ -3,7 +3,7 @@ import sys
 import numpy as np
 import pytest
 from colift.base.errors import InputError
-from colift.benchmark.bounds import held_out
+from colift.benchmark.references import held_out
 from colift.benchmark.training.anticipation import fit, learn_anticipation, window_for
 from colift.benchmark.training.data import LEADS, Timing, TrainingData
 

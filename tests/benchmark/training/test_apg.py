@@ -10,7 +10,7 @@ pytestmark = pytest.mark.slow
 
 
 def test_training(in_own_process):
-    modules = ("jax_apg.py", "jax_touch.py", "jax_pairs.py")
+    modules = ("jax_apg.py", "jax_touch.py", "jax_pairs.py", "jax_conditioned_lesson.py")
     in_own_process(*map(Path(__file__).with_name, modules))
 
 
@@ -30,6 +30,11 @@ def test_the_variation_of_the_arms_grows_to_what_was_asked_for():
             "--wide has no effect on the task 'ball'",
         ),
         ({"task": "ball", "encoders": 0.0}, "--encoders has no effect on the task 'ball'"),
+        (
+            {"task": "ball", "unsettled": 0},
+            "--unsettled has no effect on the task 'ball'",
+        ),
+        ({"unsettled": -1}, "--unsettled must be at least 0, got -1"),
         ({"encoders": -1e-4}, "--encoders must be at least 0, got -0.0001"),
         ({"updates": 0}, "--updates must be at least 1, got 0"),
         ({"batch": 5}, "--batch must be a multiple of 2, got 5"),

@@ -151,8 +151,8 @@ def test_files_that_are_none_are_refused(tmp_path):
     ("lifts", "seed", "told"),
     [
         (0, FIRST_SEED, "lifts must be at least 1, got 0"),
-        (5, 12, "seeds must be above 14, the last seed of the suites; got 12 to 16"),
-        (5, -1, "seeds must be above 14"),
+        (5, 101, "seeds for learning are 60000 to 199999, others are for tests; got 101 to 105"),
+        (5, 199_997, "got 199997 to 200001"),
     ],
 )
 def test_the_suites_seeds_are_not_for_learning(lifts, seed, told):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from colift.agents.humans import GOAL_RANGE, SUBJECTS
-from colift.benchmark.training.wandering import LONGEST, Wandering
+from colift.benchmark.training.wandering import LONGEST, LOWEST, Wandering
 
 PLANS = {seed: Wandering().plan(SUBJECTS["S1"], seed) for seed in range(12)}
 
@@ -13,7 +13,7 @@ def test_a_plan_is_within_the_stroke_and_smooth(seed):
     target = PLANS[seed].target
     assert target[0] == pytest.approx(0.0, abs=1e-3)
     assert target[-1] == pytest.approx(0.0, abs=1e-3)
-    assert target.min() > -0.021
+    assert target.min() >= LOWEST
     assert target.max() <= GOAL_RANGE[1]
     assert np.abs(np.diff(target)).max() < 0.015
     assert LONGEST / 2 < len(target) / 100 < 5 * LONGEST

@@ -20,7 +20,7 @@ from .played import Played, agents_in_twin, engine_scores
 
 TWIN = TaskTwin(make_task("agree"))
 
-PEOPLE = range(210_000, 210_002)
+PEOPLE = range(210_004, 210_006)
 """Seeds of people and lifts outside all suites."""
 LIFTS = [
     (make_scenario(behaviour, f"draw-{seed}", task="agree"), seed)

@@ -44,6 +44,6 @@ def agents_in_twin(twin, make, lifts):
         seen = np.asarray(view(state, lifts, noise), np.float64)
         acts = [float(agent.act(seen[:, i])[0]) for i, agent in enumerate(agents)]
         after, ends = step(state, lifts, noise, jnp.asarray(acts))
-        missed.append(missing(state, lifts, ends))
+        missed.append(missing(state, after, lifts, ends))
         state = after
     return np.asarray(twin.score_mm(lifts, jax.tree.map(lambda *all: jnp.stack(all), *missed)))

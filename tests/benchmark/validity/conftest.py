@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+from colift.benchmark.statistics import Units
 from colift.benchmark.validity.scores import Scores
 
 MEANS = {"a": 4.0, "b": 5.0, "c": 7.0, "d": 10.0, "e": 14.0, "f": 20.0}
@@ -30,7 +31,7 @@ def scores(
     return Scores(
         name=name,
         digest=f"digest of {name}",
-        strata=tuple(i % strata for i in range(lifts)),
+        units=Units.episodes(i % strata for i in range(lifts)),
         errors={policy: lift_by_lift(mean) for policy, mean in means.items()},
         human_human=lift_by_lift(human_human),
         seed=seed,

@@ -10,10 +10,11 @@ from colift.benchmark.bundle import read_bundle, write_bundle
 from colift.benchmark.bundle.arrays import dump_arrays, parse_arrays
 from colift.benchmark.bundle.content import results, with_circumstances
 from colift.benchmark.bundle.json_text import dump_json
-from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification import verify
 
-SUITE = make_suite("quick-v1").with_seeds(3, 5)
+from ...four import FOUR
+
+SUITE = FOUR.with_seeds(3, 5)
 
 NEW, GONE = "clipped", "wobble_mm"
 """A metric that the other version did not have yet, and one that it had."""

@@ -97,7 +97,7 @@ class TestSuite:
         suite = make_suite("standard-v1")
         assert suite_label(dataclasses.replace(suite, name="mine")) == "standard-v1"
         own = suite.with_timing(0.0, 0.02).with_seeds(0, 1)
-        label = "a suite of its own: 20 lifts, latency 0 s, control period 0.02 s"
+        label = "a suite of its own: 300 lifts, latency 0 s, control period 0.02 s"
         assert suite_label(own) == label
 
     @pytest.mark.parametrize("honest", [True, False])

@@ -33,7 +33,7 @@ def test_equal_errors_are_one_line_with_their_number(broken):
     assert len({episode.failure for episode in broken}) > 1
     first = broken[0].failure.partition(":")[0]
     assert failure_lines(broken) == [
-        f"12 lifts: RuntimeError: my own mistake (first: smooth/S1 seed 0, {first})"
+        f"12 lifts: RuntimeError: my own mistake (first: smooth/draw-1 seed 0, {first})"
     ]
 
 

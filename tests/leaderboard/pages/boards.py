@@ -7,7 +7,7 @@ from pathlib import Path
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import play_baselines, shipped_baselines
+from colift.benchmark.results.baselines import HUMAN_HUMAN, play_baselines, shipped_baselines
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import commitment
 from colift.benchmark.suites.suite import make_suite
@@ -96,7 +96,10 @@ def _adopted(
         submission=digest(name),
         public=public_scores(content),
         hidden=hidden_scores(hidden, human_human),
-        gap_mm=gap(hidden, public),
+        gap=gap(
+            ScoreTable.of(hidden).against(human_human),
+            ScoreTable.of(public).against(baselines[HUMAN_HUMAN]),
+        ),
         isolation="bubblewrap",
         verified=True,
         scoring=1,

@@ -1,5 +1,6 @@
 """A board of real rows, its service, its site, and a browser that looks at them."""
 
+import dataclasses
 import pickle
 import re
 import shutil
@@ -9,15 +10,18 @@ from datetime import timedelta
 from pathlib import Path
 
 import pytest
+from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.seasons import ImportedSeason
+from colift.leaderboard.evaluation.evaluate import play_season_references
 from colift.leaderboard.pages.site import write_site
+from colift.leaderboard.records.season import Season
 from colift.leaderboard.service.app import create_app
 from colift.leaderboard.service.documentation import Documentation
 from playwright.sync_api import Browser, Page, ViewportSize
 
 from ...serving import serving
-from .boards import BEGAN, digest, practice, renamed
+from .boards import BEGAN, SECRET, digest, practice, renamed
 
 
 @contextmanager
@@ -30,7 +34,10 @@ def running(folder: Path, docs: Documentation | None = None) -> Iterator[str]:
 @pytest.fixture(scope="session")
 def played(once: Callable[..., Path]) -> ImportedSeason:
     def make(place: Path) -> None:
-        (place / "season").write_bytes(pickle.dumps(practice(place, "2026")))
+        hidden = Season(name="2026", suite=make_suite("quick-v1"), secret=SECRET)
+        rows = practice(place, hidden.name)
+        whole = dataclasses.replace(rows, references=play_season_references(hidden))
+        (place / "season").write_bytes(pickle.dumps(whole))
 
     season: ImportedSeason = pickle.loads((once("played", make) / "season").read_bytes())
     return season

@@ -15,7 +15,6 @@ from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.verification import verify
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.pages.site import write_site
-from colift.leaderboard.views import bounds
 
 from ...cli.conftest import colift
 from .boards import digest, practice
@@ -49,9 +48,7 @@ def added():
         # Baselines of before, whose digests such a change leaves behind.
         patched.setattr(baselines, "shipped_content", dict)
         patched.setattr(baselines, "_played", {})
-        bounds._bounds.cache_clear()
         yield
-    bounds._bounds.cache_clear()
 
 
 @pytest.fixture

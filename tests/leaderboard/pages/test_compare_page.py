@@ -5,7 +5,7 @@ import io
 from dataclasses import replace
 
 import pytest
-from colift.benchmark.statistics import paired_difference
+from colift.benchmark.statistics import Units, paired_difference
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.replays.chosen import replays_of
 from colift.leaderboard.storage.store import Store
@@ -40,9 +40,9 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played, folder):
     expect(pair).to_have_count(1)
     runs = lifts_of(folder, played)
     first, second = pair.locator("th").text_content().split(" minus ")
-    strata = [(lift.behaviour, lift.subject) for lift in runs["copy"]]
+    units = Units.people((lift.behaviour, lift.subject) for lift in runs["copy"])
     errors = [[lift.rmse_mm for lift in runs[name]] for name in (first, second)]
-    mean = paired_difference(*errors, strata).mean
+    mean = paired_difference(*errors, units).mean
     shown = pair.locator("td").first.text_content().replace("\N{MINUS SIGN}", "-")
     assert abs(float(shown) - mean) < 0.006
     expect(page.locator("table.compared tbody").first.locator("tr[data-p]:visible")).to_have_count(

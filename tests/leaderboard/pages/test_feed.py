@@ -1,5 +1,6 @@
 """The feed of a season, the badge of a row, and the template to download."""
 
+import dataclasses
 import io
 import xml.etree.ElementTree as ET
 import zipfile
@@ -8,6 +9,7 @@ from urllib.parse import urljoin, urlsplit
 
 from colift.agents.submissions.submission import read_submission
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.pages.formats import badge_text
 
 from ... import web
 from .boards import digest
@@ -63,7 +65,8 @@ def test_a_badge_tells_error_and_rank_and_may_stand_on_pages_elsewhere(url, fold
     assert answer.headers["content-type"] == "image/svg+xml"
     assert answer.headers["cross-origin-resource-policy"] == "cross-origin"
     told = ET.fromstring(answer.content).get("aria-label")
-    assert told == f"colift: {best.row.hidden.rmse_mm.mean:.1f} mm · rank 1"
+    assert told == f"colift: {best.row.hidden.rmse_mm.mean:.1f} mm · not ranked"
+    assert badge_text(dataclasses.replace(best, rank=3)).endswith(" mm · rank 3")
     gone = web.get(f"{url}/seasons/2025/policies/{digest('hold')}/badge.svg")
     assert "not ranked" in gone.text
     assert web.get(f"{url}/seasons/2026/policies/{'f' * 64}/badge.svg").status_code == 404

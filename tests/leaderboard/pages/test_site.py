@@ -40,10 +40,11 @@ def test_a_replay_opens_from_the_disk(page, site):
     expect(page.get_by_role("heading", level=1)).to_contain_text("copy lifts a table")
 
 
-def test_scenarios_open_from_the_disk(page, site):
+def test_behaviours_open_from_the_disk(page, site):
     page.goto(f"{site}/index.html")
-    page.get_by_role("link", name="Scenarios").click()
-    page.get_by_role("link", name="pause with S2").click()
+    page.get_by_role("link", name="Behaviours").click()
+    page.get_by_role("link", name="pause").first.click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Pause")
     expect(page.locator("svg.wide .curve")).to_have_count(3)
 
 

@@ -75,7 +75,6 @@ def test_the_method_of_a_level_table_is_about_it(pages):
     method, questions = pages("quick-v1", "/method", "/open")
     for words in LEVEL:
         assert words in method
-    assert "The oracle knows" in method
     assert "colift run POLICY --suite quick-v1  # the public lifts" in method
     assert questions.strip().startswith("Open questions")
 
@@ -92,8 +91,8 @@ def test_the_method_of_another_task_is_about_that_task(pages, suite):
     assert questions.strip().startswith("These questions are about the suites of colift in which")
 
 
-def test_bounds_that_are_not_known_are_not_explained(pages):
+def test_references_that_have_not_been_played_are_not_explained(pages):
     (method,) = pages("tiny", "/method")
     assert "oracle" not in method
-    assert "causal bound" not in method
-    assert "Rank group" in method
+    assert "best known" not in method
+    assert "better than it beyond chance" in method

@@ -8,13 +8,14 @@ from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.core.standings import HumanHumanScores
+from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.asked import CHOSEN
 from colift.leaderboard.views.axis import make_axis
+from colift.leaderboard.views.behaviour import behaviours
 from colift.leaderboard.views.board import board_page
 from colift.leaderboard.views.compare import compare_page
 from colift.leaderboard.views.exports import standings_csv
@@ -27,7 +28,6 @@ from colift.leaderboard.views.lifts import (
 from colift.leaderboard.views.page import Visit
 from colift.leaderboard.views.picture import make_picture
 from colift.leaderboard.views.policy import policy_page
-from colift.leaderboard.views.scenario import scenarios
 
 from .. import rows
 from ..rows import add, make_entry, make_row, slow, unverified
@@ -42,7 +42,9 @@ def shown(folder):
 
 
 def human_human(mean):
-    return HumanHumanScores(rmse_mm=around(mean), means={"sparc": -2.8, "human_force_n": 0.3})
+    return UnrankedScores(
+        rmse_mm=around(mean), ratio=1.0, means={"sparc": -2.8, "human_force_n": 0.3}
+    )
 
 
 def around(mean):
@@ -73,6 +75,7 @@ def test_a_mark_is_on_the_scale_whatever_the_rest_is():
         (signed(0.04), "0.0"),
         (interval(around(2.0)), "1.0 to 3.0"),
         (interval(Estimate(mean=2.0, ci95=(2.0, 2.0))), ""),
+        (interval(Estimate(mean=2.0, ci95=None)), ""),
         (p_text(0.0002), "< 0.001"),
     ],
 )
@@ -85,13 +88,12 @@ def test_a_policy_is_shown_part_by_part_beside_two_people_and_blend(shown):
     view = policy_page(visit, "2026", digest("copy"))
     blend = policy_page(visit, "2026", digest("blend"))
     parts, public = view["parts"], view["standing"].row.public
-    assert parts[0].part == Part(behaviour=None, subject=None)
+    assert parts[0].part == Part(behaviour=None)
     assert parts[0].rmse_mm.mean == pytest.approx(public.rmse_mm.mean)
     assert parts[0].rmse_mm.ci95 == pytest.approx(public.rmse_mm.ci95)
     for mine, theirs in zip(parts, blend["parts"], strict=True):
         assert mine.blend_mm == pytest.approx(theirs.rmse_mm.mean)
-    ratio = parts[0].rmse_mm.mean / parts[0].human_human_mm
-    assert ratio == pytest.approx(public.vs_human.mean)
+    assert parts[0].ratio == pytest.approx(public.vs_human.mean)
     assert [entry.season for entry in view["history"]] == ["2026", "2025"]
 
 
@@ -106,12 +108,12 @@ def test_only_so_many_are_compared_and_no_one_with_itself(shown):
 def test_without_single_lifts_there_are_means_and_no_intervals(played, tmp_path):
     bundle = unpacked(played.entries[0], tmp_path / "whole")
     (tmp_path / RESULTS).write_bytes((bundle / RESULTS).read_bytes())
-    part = Part(behaviour="pause", subject=None)
+    part = Part(behaviour="pause")
     whole, bare = part_estimate(bundle, part), part_estimate(tmp_path, part)
     assert (bundle / EPISODES).is_file()
     assert bare.mean == pytest.approx(whole.mean)
     assert whole.ci95[0] < whole.mean < whole.ci95[1]
-    assert bare.ci95 == (bare.mean, bare.mean)
+    assert bare.ci95 is None
 
 
 def test_the_picture_has_hidden_errors_and_public_smoothness():
@@ -164,15 +166,18 @@ def test_what_tex_would_take_for_a_command_is_escaped():
     assert tex(r"a_b {50 %} \x ~") == (r"a\_b \{50 \%\} \textbackslash{}x \textasciitilde{}")
 
 
-def test_the_map_of_scenarios_has_every_policy_of_the_ranking(shown):
-    content = scenarios(Visit(board=shown), "2026")
+def test_the_map_of_behaviours_has_every_policy_of_the_ranking(shown):
+    content = behaviours(Visit(board=shown), "2026")
     ranked = [each.row.name for each in shown.standings("2026") if each.ranked]
     assert [row["standing"].row.name for row in content["rows"]] == ranked
-    strata = {(each["behaviour"], each["subject"]) for each in content["columns"]}
-    assert strata == {("smooth", "S1"), ("pause", "S2"), ("jerky", "S3"), ("changing_goal", "S5")}
+    assert content["behaviours"] == ["smooth", "pause", "jerky", "changing_goal"]
+    assert content["people"] == 3
     for row in content["rows"]:
-        assert set(row["rmse_mm"]) == strata
-    assert [stratum["behaviour"] for stratum in content["columns"]] == content["behaviours"]
+        view = policy_page(Visit(board=shown), "2026", row["standing"].row.submission)
+        means = {each.part.behaviour: each.rmse_mm.mean for each in view["parts"][1:]}
+        assert row["rmse_mm"] == pytest.approx(means)
+        for name, spread in row["spread"].items():
+            assert spread.best <= row["rmse_mm"][name] <= spread.worst
 
 
 def test_no_name_is_a_formula_of_a_spreadsheet(tmp_path):
@@ -232,7 +237,7 @@ def test_a_page_shows_what_is_not_real_time_apart_and_says_what_has_no_rank(tmp_
     assert text.index("Not real-time") < text.index("snail") < text.index("Out of the ranking")
     for page, words in zip(pages, told.values(), strict=True):
         assert (page.status_code, words in page.text) == (200, True)
-    assert [(each["section"], each["group"]) for each in api.json()] == [
+    assert [(each["section"], each["rank"]) for each in api.json()] == [
         ("ranking", 1),
         ("not real-time", 1),
         ("unverified", 0),
@@ -264,7 +269,7 @@ def test_a_bundle_that_a_rescore_has_replaced_is_read_again(tmp_path, played):
         copy = shutil.copytree(bundle, tmp_path / "copy")
         board.store.place_bundle("1", rows.digest("mine"), copy)
         place = board.bundle("1", rows.digest("mine"))
-        whole = Part(behaviour=None, subject=None)
+        whole = Part(behaviour=None)
         assert public_lifts(place) == public_lifts(bundle)
         assert stratum_scores(place) == stratum_scores(bundle)
         assert part_estimate(place, whole) == part_estimate(bundle, whole)

@@ -10,10 +10,11 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
 from colift.base.registry import own_policies
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.references.best_known import best_known_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant
-from colift.leaderboard.evaluation.evaluate import play_human_human
+from colift.leaderboard.evaluation.evaluate import play_human_human, play_season_references
 from colift.leaderboard.practice.season import SUITES, is_current, play_policy, practice_season
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason, practice_import
 from colift.leaderboard.practice.shipped_scores import shipped_scores
@@ -43,6 +44,7 @@ def shipped(season, played, tmp_path_factory):
         suite_digest=season.suite.digest,
         began_at=NOW,
         human_human=human_human,
+        references=play_season_references(season),
         played=(),
     )
     made.with_played(copy).write(folder)
@@ -71,6 +73,7 @@ def test_what_is_written_is_read(shipped, played):
     human_human, copy = played
     found = PlayedSeason.read(SUITE, shipped)
     assert found.human_human == ScoreTable.read(human_human.plain())
+    assert list(found.references) == ["best_known", "oracle"]
     assert found.began_at == NOW
     assert found.played == (copy,)
     assert PlayedSeason.read("paper-v1", shipped) is None
@@ -96,7 +99,14 @@ def test_what_is_no_longer_true_is_made_again(played, season):
         assert not is_current(dataclasses.replace(copy, entry=entry), season)
 
 
-def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
+def played_error(suite):
+    """Return the error of the best known on lifts [mm], to the digits of a board."""
+    return round(ScoreTable.of(best_known_run(suite)).mean, 2)
+
+
+def test_a_board_adopts_what_is_shipped_with_references_on_the_lifts_of_its_rows(
+    shipped, played, season, tmp_path
+):
     _, copy = played
     board = Board.open(tmp_path / "board", SUITE)
     board.import_season(practice_import(SUITE, shipped))
@@ -105,6 +115,9 @@ def test_a_board_adopts_what_is_shipped(shipped, played, tmp_path):
     assert board.season.secret == bytes.fromhex(info.revealed) == practice_season(SUITE).secret
     (standing,) = board.standings()
     assert standing.row == copy.entry.row
+    known, error = board.references(), played_error(season.hidden)
+    assert known["best_known"].rmse_mm.mean == error
+    assert error != played_error(season.suite)
     assert standing.ranked
     bundle = board.bundle(info.name, copy.entry.submission)
     assert len(replays_of(bundle, "copy")) == 2

@@ -36,6 +36,7 @@ def data(tmp_path, human_human):
         suite_digest=SUITE.digest,
         began_at=at,
         human_human=human_human,
+        references={},
         played=(played,),
     )
     folder = tmp_path / "data"

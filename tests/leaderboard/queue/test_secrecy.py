@@ -41,11 +41,12 @@ class Policy:
 
 
 def beginnings():
-    """Return the first observation of each lift that anybody can play: of check and suite."""
+    """Return the first observation of each lift that anybody can play: of check and suites."""
     lifts = [(make_scenario(*lift), (SEED,)) for lift in LIFTS]
-    suite = make_suite("quick-v1")
+    suites = [make_suite(name) for name in ("quick-v1", "tiny")]
+    lifts += [(each, suite.seeds) for suite in suites for each in suite.scenarios]
     found = []
-    for scenario, seeds in (*lifts, *((each, suite.seeds) for each in suite.scenarios)):
+    for scenario, seeds in lifts:
         lift = Lift(scenario)
         for seed in seeds:
             lift.reset(seed)

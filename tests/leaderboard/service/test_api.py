@@ -31,7 +31,7 @@ def test_an_empty_board_has_no_rows(client):
     assert client.get("/api/v1/standings", params={"behaviour": "pause"}).json() == []
     lines = client.get("/api/v1/standings.csv").text.splitlines()
     assert len(lines) == 1
-    assert lines[0].startswith("section,group,name,")
+    assert lines[0].startswith("section,rank,name,")
 
 
 def test_the_service_says_that_it_is_well(client):

@@ -16,21 +16,21 @@ LONGEST_S = 60.0
 def slow_ranks(monkeypatch):
     """Return two events: that ranks are being computed, and that they may be finished."""
     begun, go = threading.Event(), threading.Event()
-    grouped = ranks.grouped
+    tested = ranks.all_pairs
 
-    def waiting(errors, **more):
+    def waiting(errors, people):
         begun.set()
         assert go.wait(LONGEST_S)
-        return grouped(errors, **more)
+        return tested(errors, people)
 
-    monkeypatch.setattr(ranks, "grouped", waiting)
+    monkeypatch.setattr(ranks, "all_pairs", waiting)
     yield begun, go
     go.set()
 
 
 def rows(url):
     found = web.get(f"{url}/api/v1/standings").json()
-    return [(each["row"]["name"], each["group"], each["pending"]) for each in found]
+    return [(each["row"]["name"], each["rank"], each["pending"]) for each in found]
 
 
 def test_readers_have_the_last_ranks_until_the_next_are_there(
@@ -54,7 +54,7 @@ def test_readers_have_the_last_ranks_until_the_next_are_there(
                 "/method",
                 "/api/v1/standings.csv",
                 "/seasons/1/feed.atom",
-                "/seasons/1/scenarios",
+                "/seasons/1/behaviours",
                 "/seasons/1/compare",
                 f"/seasons/1/policies/{digest('b')}",
                 f"/seasons/1/policies/{digest('c')}/badge.svg",
@@ -101,10 +101,10 @@ def test_a_row_that_was_rescored_waits_for_its_new_rank(tmp_path, opening):
         board.standings()
         board.rescore("1", rescored(entry.row, 18.0), make_errors(18.0), "Ada", "a mistake")
         table = board.tables.read("1")
-        told = [(each.row.name, each.group, each.pending) for each in table.rows]
+        told = [(each.row.name, each.rank, each.pending) for each in table.rows]
         assert not table.current
         assert told == [("b", 2, False), ("a", 0, True)]
-        told = [(each.row.name, each.group, each.pending) for each in board.standings()]
+        told = [(each.row.name, each.rank, each.pending) for each in board.standings()]
         assert told == [("b", 1, False), ("a", 2, False)]
 
 
@@ -118,4 +118,4 @@ def test_ranks_of_an_older_colift_are_computed_again(tmp_path, opening):
         with board.database.writing() as connection:
             connection.execute(sa.insert(rank_groups).values(**old))
         assert board.tables.read("1").rows[0].pending
-        assert board.standings()[0].group == 1
+        assert board.standings()[0].rank == 1

@@ -71,7 +71,7 @@ def test_the_row_is_verified_and_says_what_was_submitted(client, done, place):
     assert 0 < entry["row"]["hidden"]["rmse_mm"]["mean"] < 250
     (standing,) = client.get("/api/v1/standings").json()
     assert standing["row"] == entry["row"]
-    assert standing["group"] == 1
+    assert standing["rank"] == 1
     assert standing["strata"] is None
 
 
@@ -125,14 +125,14 @@ def test_a_withdrawn_row_stays_to_be_seen(client, folder, opening, done, place):
         board.withdraw(done["season"], done["submission"], "ada", "a mistake")
     try:
         (standing,) = client.get("/api/v1/standings").json()
-        assert standing["group"] == 0
+        assert standing["rank"] == 0
         (event,) = standing["events"]
         assert (event["kind"], event["who"], event["why"]) == ("withdrawal", "ada", "a mistake")
         assert client.get(place).json()["events"] == [event]
     finally:
         with opening(folder) as board:
             board.reinstate(done["season"], done["submission"], "ada", "none after all")
-    assert client.get("/api/v1/standings").json()[0]["group"] == 1
+    assert client.get("/api/v1/standings").json()[0]["rank"] == 1
 
 
 def test_the_same_content_submitted_again_is_the_same_row(client, ada, zipped, done):

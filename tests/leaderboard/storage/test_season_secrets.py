@@ -26,6 +26,15 @@ def test_the_baseline_is_read_as_it_was_written(secrets):
     assert secrets.known_human_human().plain() == KEPT.plain()
 
 
+def test_references_are_none_until_they_are_kept_and_refused_if_damaged(secrets):
+    assert secrets.known_references() == {}
+    secrets.keep_references({"oracle": KEPT})
+    assert secrets.known_references()["oracle"].plain() == KEPT.plain()
+    (secrets.folder / "references.json").write_text('{"oracle": {}}')
+    with pytest.raises(DamagedError, match=r"references\.json is damaged.*season references"):
+        secrets.known_references()
+
+
 @pytest.mark.parametrize(
     ("change", "told"),
     [

@@ -64,8 +64,14 @@ def enter(page: Page, url: str, partner: str = "hold") -> None:
     """Open the page, choose a partner, and wait until a lift may begin."""
     page.goto(url)
     page.locator(f'input[name="partner"][value="{partner}"]').check()
-    page.get_by_role("button", name="To the table").click()
+    to_the_table(page)
     wait_until_ready(page)
+
+
+def to_the_table(page: Page) -> None:
+    """Agree to be recorded, and go on."""
+    page.get_by_label("I agree").check()
+    page.get_by_role("button", name="To the table").click()
 
 
 def wait_until_ready(page: Page) -> None:

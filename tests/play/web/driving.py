@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from colift.agents.agent import FRAME, HISTORY, HumanObservation
 from colift.agents.humans import SecondPerson
+from colift.agents.humans.felt import SUPPORT
 from colift.benchmark.episode.turns import policy_seed
 from colift.play.rooms.priority import ORDINARY, RELAY, take_turn
 from numpy.typing import NDArray
@@ -109,6 +110,7 @@ class Driven:
         await self.page.wait_for("Boolean(window.coliftPlay && coliftPlay.page)")
         await self.page.evaluate(
             f"""document.querySelector('input[name="partner"][value="{partner}"]').click();
+            document.querySelector('input[name="consent"]').click();
             [...document.querySelectorAll("button")].find(
               (each) => each.textContent.trim() === "To the table").click()"""
         )
@@ -197,6 +199,7 @@ class Driven:
             await asyncio.sleep(max(now - SOONER_S - time.monotonic(), 0))
             past = now + FRAME * np.arange(1 - HISTORY, 1)
             view = np.zeros(HumanObservation.size(STEP))
+            view[HumanObservation.HAND_FORCE] = SUPPORT  # A page has no force.
             view[HumanObservation.OWN_HEIGHT] = self._seen(past)[1]
             view[HumanObservation.OTHER_END] = other = self._seen(past - delay)[0]
             view[HumanObservation.TARGET] = other[-1]

@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.real_lifts.session_folder import lift_folders
 from playwright.sync_api import expect
 
-from .browsing import WAIT_MS, enter, wait_for, wait_for_phase, wait_until_ready
+from .browsing import WAIT_MS, enter, to_the_table, wait_for, wait_for_phase, wait_until_ready
 
 pytestmark = pytest.mark.slow
 
@@ -123,7 +123,7 @@ def test_the_follower_is_told_what_a_follower_needs(open_page, url):
     host, guest, watcher = (open_page() for _ in range(3))
     host.goto(url)
     host.locator('input[name="partner"][value="person"]').check()
-    host.get_by_role("button", name="To the table").click()
+    to_the_table(host)
     expect(host.locator("#invitation")).to_be_visible(timeout=WAIT_MS)
     guest.goto(host.locator("#invite-link").input_value())
     watcher.goto(host.locator("#watch-link").input_value())

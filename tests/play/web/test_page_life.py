@@ -13,6 +13,7 @@ from .browsing import (
     Hand,
     enter,
     start_patient_room,
+    to_the_table,
     wait_for,
     wait_for_phase,
     wait_until_ready,
@@ -117,7 +118,7 @@ def test_a_full_house_is_a_place_in_the_queue(open_page, sessions, monkeypatch):
         first, second = open_page(), open_page()
         enter(first, url)
         second.goto(url)
-        second.get_by_role("button", name="To the table").click()
+        to_the_table(second)
         status(second).to_have_text(
             "You are number 1 in the queue. The only room is taken.", timeout=WAIT_MS
         )
@@ -140,7 +141,7 @@ def test_a_server_that_is_away_is_said(page, url):
     page.goto(url)
     wait_for(page, "Boolean(coliftPlay.page)")
     page.route("**/api/sessions", lambda route: route.fulfill(status=429, json={"error": "Wait."}))
-    page.get_by_role("button", name="To the table").click()
+    to_the_table(page)
     status(page).to_have_text("Wait.")
     page.unroute("**/api/sessions")
     page.get_by_role("button", name="Try again").click()

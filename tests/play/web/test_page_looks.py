@@ -8,7 +8,14 @@ from playwright.sync_api import expect
 
 from ... import web
 from ...browser import violations
-from .browsing import WAIT_MS, enter, wait_for, wait_for_phase
+from .browsing import (
+    WAIT_MS,
+    enter,
+    to_the_table,
+    wait_for,
+    wait_for_phase,
+    wait_until_ready,
+)
 
 pytestmark = pytest.mark.slow
 
@@ -107,6 +114,17 @@ def test_the_page_says_plainly_what_it_is(page, url):
     expect(page.locator("#choice")).to_contain_text("feel no force")
     expect(page.locator("#choice")).to_contain_text("teleoperation")
     assert page.locator("input[name=partner]").count() == 5
+
+
+def test_nobody_is_recorded_who_has_not_agreed(page, url):
+    page.goto(url)
+    wait_for(page, "Boolean(coliftPlay.page)")
+    expect(page.locator("#choice")).to_contain_text("is recorded on the computer")
+    page.get_by_role("button", name="To the table").click()
+    assert page.locator("body").get_attribute("data-view") == "choose"
+    to_the_table(page)
+    wait_until_ready(page)
+    expect(page.locator("#how")).to_contain_text("By taking hold you agree")
 
 
 def test_nothing_in_the_page_is_inline_or_from_elsewhere(url):

@@ -65,6 +65,7 @@ async def lifted(url: str) -> tuple[Hand, list[float]]:
         hand = Hand(page)
         await page.goto(url)
         await page.locator('input[name="partner"][value="copy"]').check()
+        await page.get_by_label("I agree").check()
         await page.get_by_role("button", name="To the table").click()
         for _ in range(TRIES):
             way = await one_lift(page, hand)

@@ -6,7 +6,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from .browsing import WAIT_MS, table, wait_for, wait_for_phase, wait_until_ready
+from .browsing import WAIT_MS, table, to_the_table, wait_for, wait_for_phase, wait_until_ready
 
 pytestmark = pytest.mark.slow
 
@@ -48,7 +48,7 @@ def test_two_people_and_a_spectator(open_page, url):
     heard = [Heard(page) for page in (host, guest, watcher)]
     host.goto(url)
     host.locator('input[name="partner"][value="person"]').check()
-    host.get_by_role("button", name="To the table").click()
+    to_the_table(host)
     expect(host.locator("#who")).to_have_text("The second person is not here yet.", timeout=WAIT_MS)
     assert not host.locator("#lift").is_visible()
     invitation = host.locator("#invite-link").input_value()
@@ -95,7 +95,7 @@ def test_a_spectator_is_told_nothing_to_do(open_page, url):
     host, watcher = open_page(), open_page()
     host.goto(url)
     host.locator('input[name="partner"][value="person"]').check()
-    host.get_by_role("button", name="To the table").click()
+    to_the_table(host)
     expect(host.locator("#status")).to_contain_text("send them the link", timeout=WAIT_MS)
     watcher.goto(host.locator("#watch-link").input_value())
     status = watcher.locator("#status")
@@ -106,7 +106,7 @@ def test_a_spectator_is_told_nothing_to_do(open_page, url):
     assert watcher.locator("#stage").get_attribute("aria-describedby") is None
     host.get_by_role("button", name="Change the partner").click()
     host.locator('input[name="partner"][value="hold"]').check()
-    host.get_by_role("button", name="To the table").click()
+    to_the_table(host)
     expect(status).to_have_text("The next lift begins when they take hold.", timeout=WAIT_MS)
     wait_until_ready(host)
     grip(host)
@@ -126,7 +126,7 @@ def test_a_person_in_the_place_of_the_robot(open_page, url):
     host, guest = open_page(), open_page()
     host.goto(url)
     host.locator('input[name="partner"][value="person as robot"]').check()
-    host.get_by_role("button", name="To the table").click()
+    to_the_table(host)
     expect(host.locator("#invitation")).to_be_visible(timeout=WAIT_MS)
     guest.goto(host.locator("#invite-link").input_value())
     wait_until_ready(guest)

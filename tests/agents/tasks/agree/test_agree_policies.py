@@ -75,7 +75,7 @@ def test_the_negotiator_goes_first_where_nobody_is_on_the_way():
 
 def test_the_negotiator_lets_a_human_go_first_and_then_goes():
     path = played(AgreeGame(), human=away)
-    assert path[17:19] == pytest.approx(COMMON - 0.04, abs=0.012)
+    assert path[16:18] == pytest.approx(COMMON - 0.04, abs=0.012)
     assert path[26:29].max() == pytest.approx(VIA, abs=0.012)
 
 

@@ -50,7 +50,8 @@ def test_negative_parameters_are_refused(parameters):
 
 @pytest.mark.parametrize("policy", [BallCalm, BallGame, BallSteady])
 def test_a_ball_that_lies_where_it_should_is_left_alone(policy):
-    assert abs(raised(policy())) < 0.008
+    """For a short time: this ball does not roll, whatever the table does."""
+    assert abs(raised(policy(), steps=8)) < 0.008
 
 
 @pytest.mark.parametrize("policy", [BallGame, BallSteady])

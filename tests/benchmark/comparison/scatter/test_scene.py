@@ -156,9 +156,12 @@ def test_policies_alike_are_all_drawn_to_scale_however_bad() -> None:
     assert dots(drawn)["a"].at[0] == pytest.approx(drawn.scale.across(120.0))
 
 
-def test_bounds_do_not_push_policies_off_the_scale() -> None:
-    bounds = [point("oracle", 0.1, -1.9, kind="bound"), point("causal", 0.2, -1.9, kind="bound")]
-    drawn = scene([*(point(f"{mm}", mm) for mm in (12, 14, 34)), BASELINE, *bounds])
+def test_references_do_not_push_policies_off_the_scale() -> None:
+    references = [
+        point("oracle", 0.1, -1.9, kind="reference"),
+        point("trained", 0.2, -1.9, kind="reference"),
+    ]
+    drawn = scene([*(point(f"{mm}", mm) for mm in (12, 14, 34)), BASELINE, *references])
     assert not drawn.scale.beyond
     assert dots(drawn)["oracle"].at[0] == pytest.approx(drawn.scale.across(0.1))
 

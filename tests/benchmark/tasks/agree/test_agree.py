@@ -32,7 +32,7 @@ from colift.testing import check_suite, check_task
 
 pytestmark = pytest.mark.slow
 
-DIGEST = "a139738ca5010b12"
+DIGEST = "8be3f3907d590b85"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
@@ -82,14 +82,19 @@ def test_the_robot_has_its_own_hurdle_and_not_the_human_s():
         assert lift.human_observation()[0] == lift.plan.own.height
 
 
-def test_the_whole_table_has_to_pass_in_the_window():
-    hurdle = Hurdle(0.2, 10, 20)
-    near, far = np.full(40, 0.15), np.full(40, 0.15)
-    near[15], far[15] = 0.2, 0.17
-    near[25] = far[25] = 0.2
+def test_the_whole_table_has_to_stay_in_the_window():
+    hurdle = Hurdle(0.2, 10, 50)
+    near, far = np.full(80, 0.15), np.full(80, 0.15)
+    near[15:35], far[15:35] = 0.2, 0.17
+    near[55:] = far[55:] = 0.2
     assert missed_mm(hurdle, near, far) == pytest.approx(30 / math.sqrt(2))
-    assert missed_mm(hurdle, near[:5], far[:5]) == 250.0
+    assert missed_mm(hurdle, near[:25], far[:25]) == 250.0
     assert math.isnan(missed_mm(None, near, far))
+
+
+def test_to_cross_a_hurdle_is_not_to_pass_it():
+    crossing = 0.2 + 0.1 * (np.arange(60) - 29.5) / 100
+    assert missed_mm(Hurdle(0.2, 10, 50), crossing, crossing) == pytest.approx(5.77, abs=0.01)
 
 
 def test_the_error_is_the_rms_of_what_a_lift_has_and_failed_frames_count():
@@ -101,10 +106,11 @@ def test_the_error_is_the_rms_of_what_a_lift_has_and_failed_frames_count():
 
 def test_the_time_to_agree_ends_with_the_last_hurdle():
     heights = np.full(100, 0.15)
-    heights[30:40], heights[60:70] = 0.19, 0.11
-    first, second = Hurdle(0.19, 20, 80), Hurdle(0.11, 25, 80)
-    assert agreement_ms((first, second), heights, heights) == pytest.approx(400.0)
-    assert agreement_ms((first, Hurdle(0.3, 25, 80)), heights, heights) == pytest.approx(600.0)
+    heights[30:50], heights[60:80] = 0.19, 0.11
+    first, second = Hurdle(0.19, 20, 90), Hurdle(0.11, 25, 90)
+    # A stay of which one frame is 40 mm away is within 10 mm on root mean square.
+    assert agreement_ms((first, second), heights, heights) == pytest.approx(590.0)
+    assert agreement_ms((first, Hurdle(0.3, 25, 90)), heights, heights) == pytest.approx(700.0)
     assert math.isnan(agreement_ms((None, None), heights, heights))
 
 
@@ -140,12 +146,12 @@ def test_standing_still_does_not_pay():
 
 
 def test_two_people_who_know_less_of_each_other_lead_more_to_their_own_hurdles(monkeypatch):
-    """The direction that Chackochan and Sanguineti (2019) report, beyond a 95 % interval."""
-    monkeypatch.setattr(published, "CROSSING_SEEDS", 14)
+    """The direction that Chackochan and Sanguineti (2019) report."""
+    monkeypatch.setattr(published, "CROSSING_SEEDS", 3)
     suite = make_suite("agree-v1")
     few = dataclasses.replace(suite, scenarios=suite.scenarios[:1], seeds=(0,))
     run = dataclasses.replace(human_human_run(few), suite=suite)
-    assert published.roles_mw(run) > 0.0
+    assert published.roles_mw(run)(None) > 0.0
 
 
 def test_a_lift_is_proved_by_its_actions():

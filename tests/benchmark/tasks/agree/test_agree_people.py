@@ -121,7 +121,7 @@ class Deciding:
         self.manner = AgreeingManner(
             patience=patience, trust=1.0, stiffness=1.0, insistence=insistence
         )
-        self.turn = Turn(0.0, 0.0, False, False, False, False)
+        self.turn = Turn(0.0, 0.0, 0.0, False, False, False, False)
 
     def mine(self, start, stop, *, apart, own=0.15, far=0.15):
         """Return whether it is the person's turn."""
@@ -147,6 +147,16 @@ def test_a_partner_on_the_way_is_let_go_first_until_it_is_too_late():
     assert first_turn(Deciding(0.0, 1.0), apart=True) == pytest.approx(1.5 - NEEDED, abs=0.1)
 
 
+def test_the_stubborn_let_nobody_go_first():
+    assert first_turn(Deciding(0.0, 1.1), apart=True) == pytest.approx(-EARLY, abs=0.1)
+
+
+def test_the_eager_set_out_before_their_window_opens():
+    latest = 1.5 - NEEDED
+    early = -EARLY - 0.5 * (latest + EARLY)
+    assert first_turn(Deciding(-0.5, 1.0)) == pytest.approx(early, abs=0.1)
+
+
 def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_partner_is_done():
     deciding = Deciding(0.0, 0.35)
     assert deciding.mine(0.0, 1.5, apart=False)
@@ -158,10 +168,13 @@ def test_in_a_conflict_a_person_gives_way_after_a_while_and_resumes_when_the_par
     assert deciding.mine(-0.8, 0.7, apart=True)
 
 
-def test_a_hurdle_is_passed_by_both_ends_in_its_window_alone():
+def test_a_hurdle_is_passed_by_both_ends_that_stay_there_in_its_window():
     deciding = Deciding(0.0, 1.0)
-    deciding.mine(0.1, 1.0, apart=False, own=0.2, far=0.2)
-    deciding.mine(-0.1, 1.0, apart=False, own=0.2, far=0.17)
+    for _ in range(5):
+        deciding.mine(0.1, 1.0, apart=False, own=0.2, far=0.2)
+        deciding.mine(-0.1, 1.0, apart=False, own=0.2, far=0.17)
+    for far in (0.195, 0.205, 0.17, 0.2, 0.2):
+        assert deciding.mine(-0.1, 1.0, apart=False, own=0.201, far=far)
     assert not deciding.turn.passed
     assert not deciding.mine(-0.1, 1.0, apart=False, own=0.201, far=0.195)
     assert deciding.turn.passed

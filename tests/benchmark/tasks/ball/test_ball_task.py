@@ -25,7 +25,7 @@ from colift.benchmark.tasks.ball.scores import (
 from colift.benchmark.tasks.ball.task import FELL, BallSteering
 from colift.testing import check_suite, check_task
 
-DIGEST = "46fc1d1801edc1d3"
+DIGEST = "d8910584b13585aa"
 SEED = 100_000
 
 

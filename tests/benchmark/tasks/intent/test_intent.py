@@ -19,7 +19,7 @@ from colift.benchmark.tasks.intent.manner import MANNERS
 from colift.benchmark.tasks.intent.oracle import foreknow_pose
 from colift.benchmark.tasks.intent.scores import peak_mm, pose_rmse_mm, settling_ms
 
-DIGEST = "f61f558a37398d04"
+DIGEST = "a0aeec6659923fee"
 SEED = 100_000
 
 

@@ -1,0 +1,1 @@
+"""Links: the delays and losses of messages, in one direction."""

@@ -1,0 +1,1 @@
+"""References beside policies: one that knows the future, and the best known, which is trained."""
