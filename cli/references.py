@@ -78,7 +78,8 @@ def _claims_table(found: tuple[PolicyClaim, ...]) -> Table:
                 claim.text,
                 f"{claim.value:.3f}",
                 "" if claim.ci95 is None else f"{claim.ci95[0]:.3f} to {claim.ci95[1]:.3f}",
-                f"{'at least' if claim.least else 'at most'} {claim.limit:g}",
+                f"{'at least' if claim.least else 'at most'} {claim.limit:g}"
+                f"{', or chance' if claim.chance else ''}",
                 "yes" if claim.holds else "NO",
             )
             for claim in found

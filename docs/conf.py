@@ -42,8 +42,10 @@ nitpick_ignore_regex = [
 ]
 # Parts of others, without pages.
 nitpick_ignore = [
+    ("py:class", "colift.benchmark.episode.bodies.Bodies"),
     ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),
+    ("py:class", "colift.benchmark.world.table.Table"),
 ]
 templates_path = ["templates"]
 

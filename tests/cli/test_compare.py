@@ -21,7 +21,9 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):
         assert told in done.stdout
     assert f"{out / 'compare.html'}" in done.stdout
-    assert "No policy is marked as the best: 3 lifts per column are too few" in done.stdout
+    assert (
+        "No policy is marked as the best: 3 people are too few for any difference." in done.stdout
+    )
     assert "*" not in done.stdout
     assert not any(line.endswith(" ") for line in done.stdout.splitlines())
     content = json.loads((out / "compare.json").read_text())
@@ -29,10 +31,10 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     assert (out / "compare.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_where_no_lifts_are_enough_there_are_no_ranks(colift) -> None:
+def test_where_no_people_are_enough_there_are_no_ranks(colift) -> None:
     done = colift("compare", "hold", "copy", *QUICK, "--seeds", "0:1", COLUMNS="200")
-    assert "No ranks: 4 lifts are too few for a significant difference at 5 %." in done.stdout
-    assert "But 4 lifts are too few to rank the policies." in done.stdout
+    assert "No ranks: 3 people are too few for any difference beyond chance." in done.stdout
+    assert "But 3 people are too few to rank the policies." in done.stdout
     (copy, *_) = (line for line in done.stdout.splitlines() if line.split()[:1] == ["copy"])
     assert copy.startswith("     copy")
 
@@ -40,7 +42,7 @@ def test_where_no_lifts_are_enough_there_are_no_ranks(colift) -> None:
 def test_json_is_alone_on_stdout(colift) -> None:
     done = colift("compare", "copy", "hold", *QUICK, "--seeds", "0:1", "--json")
     content = json.loads(done.stdout)
-    assert content["episodes"] == 4
+    assert content["episodes"] == 12
     assert content["suite"] == "quick-v1[0:1]"
 
 
@@ -63,7 +65,7 @@ def test_failed_lifts_are_said_and_the_rest_is_compared(colift, tmp_path: Path) 
     )
     done = colift("compare", f"{path}:Bad", "hold", *QUICK, "--seeds", "0:1")
     assert done.returncode == 1
-    assert "Bad: 4 of 4 lifts failed and count as worst" in done.stderr
+    assert "Bad: 12 of 12 lifts failed and count as worst" in done.stderr
     assert "KeyError: 'oops'" in done.stderr
     assert "hold is the most level" in done.stdout
 

@@ -139,7 +139,7 @@ def killed(slow, tmp_path_factory):
     """The journal of a run with two workers that was killed in the middle."""
     bundle = tmp_path_factory.mktemp("killed") / "bundle"
     process = begin(slow, "--suite", "quick-v1", "--jobs", 2, "--out", bundle)
-    wait_for_episodes(bundle, 1, process)
+    wait_for_episodes(bundle, 2, process)
     process.kill()
     process.communicate()
     assert process.returncode == -signal.SIGKILL
@@ -204,7 +204,7 @@ def test_ctrl_c_in_the_baselines_keeps_the_run(tmp_path):
     # So many that the baselines, thrice as many, take a second on any machine.
     options = ("copy", "--suite", "quick-v1", "--seeds", "0:4", "--jobs", 1, "--out", bundle)
     process = begin(*options)
-    wait_for_episodes(bundle, 16, process)
+    wait_for_episodes(bundle, 48, process)
     end = processor_time(process.pid) + 0.2  # Out of the run, into the baselines.
     while processor_time(process.pid) < end:
         time.sleep(0.01)

@@ -45,7 +45,8 @@ def test_each_source_has_a_table_and_each_suite_a_verdict_there(colift, files):
         "ratios off by",
         "two people, mm",
         "proportional,gain=0.4",
-        "95 % intervals, for other lifts of the same people",
+        "95 % intervals, for other people",
+        "for other lifts of the same people",
     ):
         assert wanted in done.stdout
     verdicts = [line for line in done.stdout.splitlines() if line.startswith("quick-v1 ")]

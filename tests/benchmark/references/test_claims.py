@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
-from colift.benchmark.references.claims import claims
+from colift.benchmark.references.claims import PolicyClaim, claims
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.suites.suite import make_suite
@@ -108,3 +108,19 @@ def test_recorded_lifts_are_set_against_blend_alone():
     wins = found["share of the recorded lifts more level than with blend"]
     assert (wins.value, wins.holds) == (pytest.approx(0.96), False)
     assert not any("human-human" in text or "best known" in text for text in found)
+
+
+@pytest.mark.parametrize(
+    ("ends", "least", "holds"),
+    [
+        ((-0.10, 0.09), True, True),
+        ((-0.10, -0.01), True, False),
+        ((-0.02, 0.04), False, True),
+        ((0.01, 0.04), False, False),
+    ],
+)
+def test_a_difference_that_may_be_chance_is_no_objection(ends, least, holds):
+    claim = PolicyClaim(
+        text="it", value=sum(ends) / 2, ci95=ends, limit=0.0, least=least, chance=True
+    )
+    assert claim.holds == holds

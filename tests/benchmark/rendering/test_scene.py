@@ -15,11 +15,18 @@ from PIL import ImageColor
 PLACES = ((0.0, 0.0), (0.29, 0.29), (-0.03, 0.10))
 
 
-@pytest.fixture(params=["nao", "human"])
-def scene(request: pytest.FixtureRequest) -> Iterator[Scene]:
+@pytest.fixture(scope="module", params=["nao", "human"])
+def kept(request: pytest.FixtureRequest) -> Iterator[Scene]:
+    """A scene for many tests: PyBullet gives the memory of a closed one not back."""
     made = Scene(request.param)
     yield made
     made.close()
+
+
+@pytest.fixture
+def scene(kept: Scene) -> Scene:
+    kept.pose(0.0, 0.0)
+    return kept
 
 
 def amount(picture: Picture, colour: str) -> int:

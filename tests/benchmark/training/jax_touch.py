@@ -6,13 +6,9 @@ import numpy as np
 import pytest
 from colift.agents.control.portable import PORTABLE
 from colift.agents.control.recurrent import GatedNetwork
+from colift.agents.tasks.touch.alone_law import law_of, ports_of
 from colift.agents.tasks.touch.touch_controller import read_touch
-from colift.agents.tasks.touch.touch_law import (
-    TouchNetwork,
-    felt_action,
-    inputs_of,
-    touch_at_rest,
-)
+from colift.agents.tasks.touch.touch_law import TouchNetwork, touch_at_rest
 from colift.base.registry import TASKS, own_entries
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.suites.suite import Suite
@@ -38,14 +34,15 @@ def whole():
 @pytest.mark.parametrize("task", WITH_RULES)
 def test_the_network_acts_the_same_in_numpy(task, alone):
     senses = make_task(task).senses
-    made = first_network(inputs_of(senses), 3, 0)
+    inputs, outputs = ports_of(senses, alone=alone)
+    made = first_network(inputs, 3, 0, outputs)
     plain = GatedNetwork(*(np.asarray(array, np.float64) for array in made))
     learned = TouchNetwork(task, senses, plain, alone)
     policy, many = touch_policy(TouchNetwork(task, senses, made, alone), 1)
     memory, rng = touch_at_rest(learned), np.random.default_rng(0)
     for _ in range(5):
         view = 0.1 + 0.01 * rng.standard_normal(learned.expected)
-        memory, action = felt_action(learned, memory, view, PORTABLE)
+        memory, action = law_of(learned)(learned, memory, view, PORTABLE)
         many, actions = policy(many, view[:, np.newaxis].astype(np.float32))
         assert float(actions[0]) == pytest.approx(action, abs=1e-5)
 

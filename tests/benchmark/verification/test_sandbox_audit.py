@@ -38,7 +38,7 @@ def test_what_does_not_follow_from_the_lift_alone_is_found(tmp_path, keeper):
     (tmp_path / "policy.py").write_text(source + ACT)
     policy = SandboxedPolicy(name="p", origin="policy:Policy", folder=tmp_path)
     run = run_suite(policy, make_suite("quick-v1").with_seeds(0, 1))
-    assert [episode.failure for episode in run.episodes] == 4 * [None]
+    assert [episode.failure for episode in run.episodes] == 12 * [None]
     finding = audit(dataclasses.replace(policy, instance=AUDIT), run, SECRET)
     close_sandboxes()
     assert (finding is not None) == found

@@ -66,11 +66,16 @@ def bubble(page):
     return float(page.locator(".bubble.real").get_attribute("cx"))
 
 
+def episode_of(page, bundle):
+    """Return the episode of a page that shows a pause."""
+    person = re.search(r"draw-\d+", page.locator(".replay-about").inner_text())[0]
+    (episode,) = [e for e in bundle.episodes if (e.behaviour, e.subject) == ("pause", person)]
+    return episode
+
+
 def test_scrubbing_shows_the_lift_at_that_time(open_page, bundle):
     page = open_page("#pause-median")
-    shown = page.locator(".replay-about").inner_text()
-    seed = int(re.search(r"seed (\d+)", shown)[1])
-    (episode,) = [e for e in bundle.episodes if (e.behaviour, e.seed) == ("pause", seed)]
+    episode = episode_of(page, bundle)
     rest = bubble(page)
     for time in (1.4, 2.0, 4.2):
         slider(page).fill(str(time))
@@ -84,9 +89,10 @@ def test_scrubbing_shows_the_lift_at_that_time(open_page, bundle):
             assert (bubble(page) < rest) == (robot > human)
 
 
-def test_the_table_is_drawn_as_it_is_inclined(open_page):
+def test_the_table_is_drawn_as_it_is_inclined(open_page, bundle):
     page = open_page("#pause-median")
-    slider(page).fill("1.4")
+    trace = episode_of(page, bundle).trace
+    slider(page).fill(f"{0.1 * round(0.1 * (trace.human_end - trace.robot_end).argmax()):.1f}")
     table = page.locator(".replay-table.real").get_attribute("transform")
     turn = float(re.search(r"rotate\((.*)\)", table)[1])
     # The human's end, on the right, is higher: the picture turns against the clock.

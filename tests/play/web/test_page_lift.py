@@ -76,6 +76,8 @@ def test_keys_alone_are_enough(page, url):
     hand = Hand(page)
     page.goto(url)
     expect(page.get_by_role("button", name="To the table")).to_be_enabled()
+    page.get_by_role("checkbox", name="I agree").focus()
+    page.keyboard.press("Space")
     page.locator('input[name="partner"][value="hold"]').focus()
     page.keyboard.press("Space")
     page.keyboard.press("Enter")

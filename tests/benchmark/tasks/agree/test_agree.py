@@ -32,7 +32,7 @@ from colift.testing import check_suite, check_task
 
 pytestmark = pytest.mark.slow
 
-DIGEST = "729c2f27cd982068"
+DIGEST = "8be3f3907d590b85"
 SEED = 100_000
 BOTH = ("abreast", "ahead", "behind")
 
