@@ -17,8 +17,6 @@ from colift.benchmark.training.apg import updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, first_network
 from colift.benchmark.training.touch_lesson import TouchLesson
-from colift.benchmark.training.validation import VALIDATION_SEEDS
-from colift.benchmark.twin.drawing import draw_lifts
 from colift.benchmark.twin.learning_person import SENSES, LearningPerson
 from colift.benchmark.twin.people import with_quiet_wrists
 from colift.benchmark.twin.policy import JAX
@@ -113,8 +111,7 @@ def cross_play(
 
 def played_across(lesson: PairLesson, pairs: Sequence[TrainedPair]) -> NDArray[np.float64]:
     """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
-    scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
-    lifts = lesson.quiet(draw_lifts(scenarios))
+    lifts = lesson.quiet(lesson.of_robot.validation())
     errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
     return np.array(
         [[float(errors(TrainedPair(two.robot, one.person))) for two in pairs] for one in pairs]

@@ -1,6 +1,5 @@
 """The lessons of tasks with touch: the score of the task, on lifts of its twin."""
 
-from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.submissions import touch as submission
 from colift.agents.tasks.touch.alone_law import law_of, ports_of
-from colift.agents.tasks.touch.touch_controller import TouchController, touch_network
+from colift.agents.tasks.touch.touch_controller import touch_network
 from colift.agents.tasks.touch.touch_law import (
     TouchMemory,
     TouchNetwork,
@@ -23,8 +22,8 @@ from colift.benchmark.tasks.touch import Touch
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
 from colift.benchmark.training.pool import draw_arms
-from colift.benchmark.training.validation import LEARNING_SEEDS, learning_seeds, task_error
-from colift.benchmark.twin.drawing import draw_lift, stack
+from colift.benchmark.training.validation import LEARNING_SEEDS, VALIDATION_SEEDS, learning_seeds
+from colift.benchmark.twin.drawing import draw_lift, draw_lifts, stack
 from colift.benchmark.twin.lifts import Lifts, shares, some
 from colift.benchmark.twin.people import with_new_manners
 from colift.benchmark.twin.policy import JAX
@@ -75,9 +74,7 @@ class TouchLesson:
         self, network: Any, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts = self.batch(pool, settings, draw)
-        policy, memory = self.policy(network, draw.size)
-        mean = rollout(self.twin, policy, memory, lifts).rmse_mm.mean()
+        mean = self.errors(network, self.batch(pool, settings, draw)).mean()
         return mean, mean
 
     def batch(self, pool: Lifts, settings: ApgSettings, draw: BatchDraw) -> Lifts:
@@ -99,10 +96,14 @@ class TouchLesson:
         first = jax.tree.map(lambda each: each[0], shares(lifts))
         return len(self.twin.known(self.twin.at_rest(lifts), lifts, first))
 
-    def error(self, weights: Weights) -> float:
-        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
-        make = partial(TouchController, self.check(weights))
-        return task_error(make, self.scenario)
+    def validation(self) -> Lifts:
+        """Return the lifts of a curve, with people who are not used for learning."""
+        return draw_lifts([(self.scenario(seed), seed) for seed in VALIDATION_SEEDS])
+
+    def errors(self, network: Any, lifts: Lifts) -> jax.Array:
+        """Return the policy's RMSE in lifts (n,) [mm]."""
+        policy, memory = self.policy(network, lifts.size)
+        return rollout(self.twin, policy, memory, lifts).rmse_mm
 
     def check(self, weights: Weights) -> TouchNetwork:
         """Return the network in NumPy, in double precision."""

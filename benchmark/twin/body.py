@@ -93,10 +93,8 @@ def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
     frames
         Number of frames.
     """
-    # Not a gather: for its gradient, XLA would copy the history for each element.
-    picked = (jnp.arange(DEPTH)[:, jnp.newaxis] == delay).astype(history.dtype)
-    values = [(picked[i:] * history[: DEPTH - i]).sum(axis=0) for i in range(frames)]
-    return jnp.stack(values)
+    ages = delay - jnp.arange(frames)[:, jnp.newaxis]
+    return jnp.take_along_axis(history, ages, axis=0)
 
 
 def pushed(history: jax.Array, new: jax.Array) -> jax.Array:

@@ -74,6 +74,5 @@ def aged(history: jax.Array, age: Any) -> jax.Array:
     """Return the values (n,) of a history, newest first, of an age or of n ages."""
     if isinstance(age, int):
         return history[age]
-    # Not a gather: for its gradient, XLA would copy the history for each element.
-    picked = (jnp.arange(len(history))[:, jnp.newaxis] == age).astype(history.dtype)
-    return jnp.sum(picked * history, axis=0)
+    ages = jnp.broadcast_to(age, history.shape[1:])
+    return jnp.take_along_axis(history, ages[jnp.newaxis], axis=0)[0]
