@@ -30,7 +30,7 @@ from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import Cell, left, show, table
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.twin.libraries import require_jax
-from colift.benchmark.world import Physics
+from colift.benchmark.world.physics import Physics
 from colift.cli.completion import suites
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive

@@ -10,14 +10,12 @@ from importlib import import_module
 from typing import Any, Final
 
 from colift.base.identity.data import data_hash
-from colift.base.identity.modules import EFFECTS, Module, Reference, read_module
+from colift.base.identity.modules import COLIFT, EFFECTS, Module, Reference, read_module
 from colift.base.identity.statements import Statement, Target, Use
 from colift.base.identity.values import value_text
 
 WHOLE: Final = "*"
 """The name under which a module itself is referred to."""
-
-COLIFT: Final = __name__.partition(".")[0]
 
 FINDERS: Final = {
     *(f"<builtins.__{name}__>" for name in ("file", "path", "spec", "loader")),

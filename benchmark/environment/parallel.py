@@ -2,10 +2,11 @@
 
 from copy import deepcopy
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from colift.agents.agent import Action, Agent, Observation
+from colift.base.engine import require_engine
 from colift.benchmark.environment.drawing import Drawing, make_drawing
 from colift.benchmark.environment.rewards import SCORE, TASK_REWARD, check_reward, score_rewards
 from colift.benchmark.environment.settings import (
@@ -20,13 +21,16 @@ from colift.benchmark.environment.settings import (
 from colift.benchmark.environment.state import state_space, true_state
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from colift.benchmark.rendering.scene import Scene, check_render_mode
+from colift.benchmark.rendering.modes import check_render_mode
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.suites.catalogue import TASK, make_scenario
 from colift.benchmark.tasks.worlds import lift_after
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
+
+if TYPE_CHECKING:
+    from colift.benchmark.rendering.scene import Scene
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
@@ -102,6 +106,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         reward: str = TASK_REWARD,
         drawing: Drawing | None = None,
     ) -> None:
+        require_engine()
         check_render_mode(render_mode)
         check_reward(reward, scenario.task)
         self.render_mode = render_mode
@@ -249,6 +254,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         if self.render_mode is None:
             return None
         if self._scene is None:
+            from colift.benchmark.rendering.scene import Scene
+
             window = self.render_mode == "human"
             self._scene = Scene(self.lift.scenario.partner, window=window)
         world = self.lift.world

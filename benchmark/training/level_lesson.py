@@ -55,7 +55,9 @@ class LevelLesson:
 
     def validation(self) -> Lifts:
         """Return the lifts of a curve, with people who are not used for learning."""
-        return draw_lifts([(scenario(seed, BEHAVIOURS, Timing()), seed) for seed in VALIDATION_SEEDS])
+        return draw_lifts(
+            [(scenario(seed, BEHAVIOURS, Timing()), seed) for seed in VALIDATION_SEEDS]
+        )
 
     def errors(self, network: GatedNetwork, lifts: Lifts) -> jax.Array:
         """Return the policy's RMSE in lifts (n,) [mm]."""

@@ -13,7 +13,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.data import Timing, scenario
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]

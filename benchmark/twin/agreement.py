@@ -19,7 +19,7 @@ from colift.benchmark.twin.columns import LiftSeries, columns
 from colift.benchmark.twin.drawing import check_modelled
 from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.view import aged
-from colift.benchmark.world import HISTORY_FRAMES
+from colift.benchmark.world.interface import HISTORY_FRAMES
 
 CLOSE: Final = 1e-9
 """Largest difference of a number, in its unit, that rounding explains in double precision."""

@@ -1,17 +1,12 @@
 """PyBullet, with the output of its C code discarded where the C library is GNU's."""
 
 import ctypes
-import importlib
 import os
 import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
-from types import ModuleType
-from typing import Any, Final
-
-from colift.base.errors import InputError
+from typing import Final
 
 _ONE_AT_A_TIME: Final = threading.Lock()
 
@@ -40,42 +35,16 @@ def silent() -> Iterator[None]:
             c.fclose(nowhere)
 
 
-class _PyBullet:
-    """The module ``pybullet``, imported when it is first used.
+# PyBullet prints a line to stderr while it initialises the C++ library, which would keep an
+# exchanged stream for good. Here the descriptor itself is redirected.
+_kept = os.dup(2)
+_nowhere = os.open(os.devnull, os.O_WRONLY)
+os.dup2(_nowhere, 2)
+try:
+    import pybullet
+finally:
+    os.dup2(_kept, 2)
+    os.close(_kept)
+    os.close(_nowhere)
 
-    What needs the world's numbers alone, such as the twin, does without the engine.
-    """
-
-    def __getattr__(self, name: str) -> Any:
-        """Return a function or constant, and keep it: the next access is that of an attribute."""
-        found = getattr(_imported(), name)
-        setattr(self, name, found)
-        return found
-
-
-@cache
-def _imported() -> ModuleType:
-    """Import the engine.
-
-    PyBullet prints a line to stderr while it initialises the C++ library, which would keep an
-    exchanged stream for good. Here the descriptor itself is redirected.
-    """
-    with _ONE_AT_A_TIME:
-        kept, nowhere = os.dup(2), os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, 2)
-        try:
-            return importlib.import_module("pybullet")
-        except ImportError as error:
-            raise InputError(
-                f"lifts in the engine need PyBullet, which cannot be imported: {error}; it has "
-                "wheels for Python 3.11 to 3.13 (pip install pybullet, or pybullet-arm64). The "
-                "twin needs none"
-            ) from None
-        finally:
-            os.dup2(kept, 2)
-            os.close(kept)
-            os.close(nowhere)
-
-
-pybullet: Final = _PyBullet()
-"""The engine; an :class:`.InputError` at the first use if it cannot be imported."""
+__all__ = ["pybullet", "silent"]

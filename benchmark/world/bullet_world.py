@@ -30,6 +30,7 @@ from colift.benchmark.world.table import (
 
 _JOINTS: Final = [HANDS, PITCH]
 _ALL: Final = [HANDS, PITCH, SLIDE]
+_TORQUE: Final = pybullet.TORQUE_CONTROL
 
 
 class BulletWorld:
@@ -159,7 +160,7 @@ class BulletWorld:
         sin, cos = math.sin, math.cos
         body, hands, begins = self._body, self.hands, self._begins
         control, states = pybullet.setJointMotorControlArray, pybullet.getJointStates
-        step_engine, by_torque = pybullet.stepSimulation, pybullet.TORQUE_CONTROL
+        step_engine = pybullet.stepSimulation
         human_end, robot_end = self.human_end, self.robot_end
         human_force, robot_force = self.human_force, self.robot_force
         human_velocity, robot_velocity = self.human_velocity, self.robot_velocity
@@ -197,7 +198,7 @@ class BulletWorld:
                 if ball is not None:
                     lift -= load * cos(pitch)
                     torque -= load * (TABLE_LENGTH / 2 + place)
-                control(tree, _JOINTS, by_torque, forces=[lift, torque], physicsClientId=client)
+                control(tree, _JOINTS, _TORQUE, forces=[lift, torque], physicsClientId=client)
                 step_engine(client)
                 now = states(tree, joints, client)
                 before = velocity, pitch

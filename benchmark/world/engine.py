@@ -22,9 +22,12 @@ class BulletEngine(Engine):
 
 Vector = tuple[float, float, float]
 
-DIRECT: Final = {"globalCFM": 1e-9, "numSolverIterations": 1}
-"""Settings of Dantzig's solver: it pivots, and so solves the constraints of a step exactly, up to a
-compliance of 1e-9.
+DIRECT: Final = {
+    "constraintSolverType": pybullet.CONSTRAINT_SOLVER_LCP_DANTZIG,
+    "globalCFM": 1e-9,
+    "numSolverIterations": 1,
+}
+"""Dantzig's pivoting solves the constraints of a step exactly, up to a compliance of 1e-9.
 
 Arm and table form a closed loop with redundant constraints: without compliance the problem is
 singular, and the engine falls back to iterations. A compliance ten times larger or smaller changes
@@ -37,8 +40,7 @@ def new_client(physics: Physics) -> int:
     """Return a new headless physics client with gravity, time step and solver set."""
     client: int = pybullet.connect(pybullet.DIRECT)
     pybullet.setGravity(0, 0, -GRAVITY, physicsClientId=client)
-    dantzig = {"constraintSolverType": pybullet.CONSTRAINT_SOLVER_LCP_DANTZIG, **DIRECT}
-    solver = {"numSolverIterations": physics.iterations} if physics.iterations else dantzig
+    solver = {"numSolverIterations": physics.iterations} if physics.iterations else DIRECT
     with silent():  # PyBullet reports each change of the solver.
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=physics.step, physicsClientId=client, **solver

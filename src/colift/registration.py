@@ -75,7 +75,7 @@ def _twin(**settings: Any) -> VectorEnv[Any, Any, Any]:
     from colift.benchmark.twin.libraries import require_jax
 
     require_jax()
-    from colift.benchmark.environment.vector import TwinVectorEnv
+    from colift.benchmark.twin_environment.vector import TwinVectorEnv
 
     return TwinVectorEnv(**settings)
 

@@ -19,10 +19,10 @@ from colift.benchmark.twin.libraries import require_jax
 
 require_jax()
 
-from colift.benchmark.twin.environment.environment import State, TwinEnv  # noqa: E402
-from colift.benchmark.twin.environment.made import make  # noqa: E402
-from colift.benchmark.twin.environment.single import Single  # noqa: E402
-from colift.benchmark.twin.environment.spaces import Box  # noqa: E402
-from colift.benchmark.twin.environment.training_view import TrainingView  # noqa: E402
+from colift.benchmark.twin_environment.environment import State, TwinEnv  # noqa: E402
+from colift.benchmark.twin_environment.made import make  # noqa: E402
+from colift.benchmark.twin_environment.single import Single  # noqa: E402
+from colift.benchmark.twin_environment.spaces import Box  # noqa: E402
+from colift.benchmark.twin_environment.training_view import TrainingView  # noqa: E402
 
 __all__ = ["Box", "Single", "State", "TrainingView", "TwinEnv", "make"]

@@ -39,5 +39,5 @@ def test_the_command_line_starts_without_an_engine():
 
 def test_a_lift_in_the_engine_says_what_to_install():
     done = run("import colift; colift.make('smooth').reset(seed=0)")
-    assert "lifts in the engine need PyBullet, which cannot be imported" in done.stderr
+    assert "lifts in the engine need PyBullet, which is not installed" in done.stderr
     assert "pip install pybullet" in done.stderr

@@ -7,10 +7,10 @@ import pytest
 from colift.agents.policies.extrapolate import Extrapolate
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import make_drawing
-from colift.benchmark.environment.vector import TwinVectorEnv
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.twin_environment.vector import TwinVectorEnv
 
 
 def make(**settings):

@@ -11,9 +11,9 @@ from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import ANY, DRAW
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.suites.catalogue import TASK
-from colift.benchmark.twin.environment.environment import ADDED, ROBOT, State, TwinEnv
-from colift.benchmark.twin.environment.made import LIFTS, drawing_of, drawn_pool
 from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin_environment.environment import ADDED, ROBOT, State, TwinEnv
+from colift.benchmark.twin_environment.made import LIFTS, drawing_of, drawn_pool
 from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space

@@ -10,10 +10,10 @@ from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.suites.catalogue import TASK
 from colift.benchmark.twin.drawing import check_modelled, common_rules, draw_lift, stack
-from colift.benchmark.twin.environment.environment import ROBOT, TwinEnv
-from colift.benchmark.twin.environment.pool import LiftPool
-from colift.benchmark.twin.environment.spaces import Box
 from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin_environment.environment import ROBOT, TwinEnv
+from colift.benchmark.twin_environment.pool import LiftPool
+from colift.benchmark.twin_environment.spaces import Box
 
 BOTH: Final = "both"
 """Both agents learn."""

@@ -24,8 +24,8 @@ from colift.agents.submissions.network.policy import (
 )
 from colift.base.errors import InputError
 from colift.benchmark.training.result import usable, write_network
-from colift.benchmark.twin.environment.environment import ROBOT, State, TwinEnv
-from colift.benchmark.twin.environment.spaces import Box
+from colift.benchmark.twin_environment.environment import ROBOT, State, TwinEnv
+from colift.benchmark.twin_environment.spaces import Box
 
 STEPS: Final = 20
 """Steps of the human's motion that a learner sees: 2 s, a stroke."""

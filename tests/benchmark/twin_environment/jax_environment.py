@@ -8,10 +8,10 @@ from colift import twin as public
 from colift.base.errors import InputError
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.twin.drawing import draw_lifts
-from colift.benchmark.twin.environment.environment import HUMAN, ROBOT, TwinEnv
-from colift.benchmark.twin.environment.pool import LiftPool
 from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin_environment.environment import HUMAN, ROBOT, TwinEnv
+from colift.benchmark.twin_environment.pool import LiftPool
 
 SUITES = ("standard-v1", "robust-v1", "agree-v1", "ball-v1", "intent-v1")
 COUNT = 6

@@ -5,7 +5,7 @@ from typing import Any
 
 import jax
 import jax.numpy as jnp
-from colift.benchmark.twin.environment.environment import ROBOT, State, TwinEnv
+from colift.benchmark.twin_environment.environment import ROBOT, State, TwinEnv
 
 
 class Single:

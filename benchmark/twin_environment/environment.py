@@ -10,19 +10,19 @@ import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
 from colift.benchmark.episode.reward_unit import UNIT
-from colift.benchmark.twin.environment.pool import LiftPool
-from colift.benchmark.twin.environment.running import (
+from colift.benchmark.twin.learning_person import SENSES, added_in_step, person_senses
+from colift.benchmark.twin.lifts import Lifts, Share
+from colift.benchmark.twin.task_twin import TaskTwin
+from colift.benchmark.twin.view import LiftState
+from colift.benchmark.twin_environment.pool import LiftPool
+from colift.benchmark.twin_environment.running import (
     Running,
     nothing_missed,
     square_at_end,
     square_so_far,
     with_step,
 )
-from colift.benchmark.twin.environment.spaces import Box
-from colift.benchmark.twin.learning_person import SENSES, added_in_step, person_senses
-from colift.benchmark.twin.lifts import Lifts, Share
-from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.view import LiftState
+from colift.benchmark.twin_environment.spaces import Box
 
 ROBOT: Final = "robot"
 HUMAN: Final = "human"
