@@ -42,7 +42,7 @@ def test_a_submission_does_in_the_engine_what_the_network_did_on_the_twin(task, 
         def step(now, key):
             seen, state, score = now
             actions = {"robot": acting(weights, seen["robot"])}
-            seen, state, _, dones, infos = view.step(key, state, actions)
+            seen, state, _, _, infos = view.step(key, state, actions)
             ended = jnp.where(score > 0, score, infos["score_mm"][0])
             return (seen, state, ended), None
 
