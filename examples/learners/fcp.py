@@ -112,7 +112,7 @@ def main():
 
     made = colift.twin.make(given.task, agents="both", seed=given.seed)
     view = colift.twin.TrainingView(made)
-    updates = round(given.steps / ENVS / LENGTH)
+    updates = max(round(given.steps / ENVS / LENGTH), 1)
     begin = time.perf_counter()
     first, learn = jax.random.split(jax.random.key(given.seed))
     people = population(view, given.pairs, updates, first)

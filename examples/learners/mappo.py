@@ -195,7 +195,7 @@ def main():
 
     made = colift.twin.make(given.task, agents="both", seed=given.seed)
     view = colift.twin.TrainingView(made)
-    updates = round(given.steps / ENVS / LENGTH)
+    updates = max(round(given.steps / ENVS / LENGTH), 1)
     start = time.perf_counter()
     begin, update = make_update(view, updates, given.critic == "all")
     first, learn = jax.random.split(jax.random.key(given.seed))

@@ -154,7 +154,7 @@ def main():
     given = arguments.parse_args()
 
     view = colift.twin.TrainingView(colift.twin.make(given.task, seed=given.seed))
-    updates = round(given.steps / ENVS / LENGTH)
+    updates = max(round(given.steps / ENVS / LENGTH), 1)
     begin = time.perf_counter()
     train = make_train(colift.twin.Single(view), updates)
     actor, scores = jax.block_until_ready(train(jax.random.key(given.seed)))

@@ -127,7 +127,7 @@ def make_train(env, rounds):
         later, state, reward, done, info = jax.vmap(env.step)(keys, state, action[:, None])
         # A lift ends by its time: it has no value later.
         moment = Moment(seen, action, reward, later, done.astype(float))
-        kept = jax.tree.map(lambda all, new: all.at[step % KEPT].set(new), kept, moment)
+        kept = jax.tree.map(lambda every, new: every.at[step % KEPT].set(new), kept, moment)
         filled = jnp.minimum(step + 1, KEPT)
         passes = jax.random.split(learn, PASSES)
         held = jax.lax.cond(
@@ -164,7 +164,7 @@ def main():
     given = arguments.parse_args()
 
     view = colift.twin.TrainingView(colift.twin.make(given.task, seed=given.seed))
-    rounds = round(given.steps / ENVS)
+    rounds = max(round(given.steps / ENVS), 10)
     begin = time.perf_counter()
     train = make_train(colift.twin.Single(view), rounds)
     actor, (scores, ended) = jax.block_until_ready(train(jax.random.key(given.seed)))
