@@ -115,6 +115,7 @@ def told_pool(drawn: Sequence[DrawnLift], telling: Telling) -> ConditionedPool:
     lifts = stack(drawn)
     told = np.zeros((len(lifts.gain), telling.size, len(drawn)), np.float32)
     for index, each in enumerate(drawn):
+        assert each.conditions is not None
         # Its last row is for the time after the last step.
         numbers = telling.numbers(each.scenario, each.conditions)[:-1]
         told[: len(numbers), :, index] = numbers

@@ -40,7 +40,8 @@ def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]
     due, last = shares(drawn), drawn.longest - 1
 
     def share(number: jax.Array) -> Share:
-        return jax.tree.map(lambda each: each[jnp.minimum(number, last)], due)
+        found: Share = jax.tree.map(lambda each: each[jnp.minimum(number, last)], due)
+        return found
 
     @jax.jit
     def step(state: LiftState, actions: jax.Array) -> tuple[LiftState, Missed, jax.Array]:

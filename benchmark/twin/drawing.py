@@ -131,7 +131,8 @@ def draw_lift(
     chance, manner = scenario.rules.draw(person, role_seed, steps, size)
     if rules is SLOWS_DOWN and scenario.rules is FOLLOWS_PLAN:
         manner = Patience(UNMOVED)
-    drawn = scenario.conditions and scenario.conditions.draw(role_seed, steps, size)
+    conditions = scenario.conditions
+    drawn = None if conditions is None else conditions.draw(role_seed, steps, size)
     ages, precision = np.full(steps + 1, scenario.latency_frames), 1.0
     if drawn:
         ages, precision = drawn.ages, drawn.noise

@@ -1,5 +1,7 @@
 """The motion of a table over the frames of a step, in parts that the reflexes cannot notice."""
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
 from colift.benchmark.tasks.touch import Ends
@@ -55,7 +57,7 @@ def moved_table(
     return table, Ends(*map(jnp.concatenate, zip(*parts, strict=True)))
 
 
-def unpulled(table: Table) -> Table:
+def unpulled(table: Any) -> Any:
     """Return the table with a new sum of the far hands' force."""
     match table:
         case BallPlant(haptic=haptic):

@@ -66,7 +66,9 @@ class TaskTwin:
         """
         late = any(each.conditions or each.latency_frames >= DEPTH for each in scenarios)
         depth = HISTORY_FRAMES if late else DEPTH
-        return cls(scenarios[0].task, common_rules(scenarios), depth)
+        task = scenarios[0].task
+        assert isinstance(task, Level), task
+        return cls(task, common_rules(scenarios), depth)
 
     @property
     def stays(self) -> tuple[int, ...]:
@@ -206,7 +208,8 @@ class TaskTwin:
         """Return how many frames of the plan (n,) are still to be done."""
         view = LiftView(state, lifts, lifts.steps)
         if isinstance(self.task, Touch):
-            return self.task.unfinished(LIFTS, lifts.drawn, view)
+            left: jax.Array = self.task.unfinished(LIFTS, lifts.drawn, view)
+            return left
         if "time" in self.person.intention._fields:
             return jnp.maximum(lifts.stop - view.seen("time", 0), 0.0)
         return jnp.zeros_like(state.command)
@@ -214,7 +217,8 @@ class TaskTwin:
     def error(self, lifts: Lifts, squares: Sequence[jax.Array], frames: jax.Array) -> jax.Array:
         """Return the square of the error (n,) [m2] of gathered squares in the lifts' frames."""
         if isinstance(self.task, Touch):
-            return self.task.error(LIFTS, lifts.drawn.facts, squares, frames)
+            error: jax.Array = self.task.error(LIFTS, lifts.drawn.facts, squares, frames)
+            return error
         return squares[0] / frames
 
     def score_mm(self, lifts: Lifts, missed: Missed) -> jax.Array:

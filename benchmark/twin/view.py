@@ -16,7 +16,8 @@ from colift.benchmark.world.table import WEIGHT_SHARE
 class LiftState(NamedTuple):
     """The state of n lifts between two steps; histories are (depth, n), newest first."""
 
-    table: Plant | HapticPlant | BallPlant
+    table: Any
+    """A :class:`.Plant`, :class:`.HapticPlant` or :class:`.BallPlant`; or the plant of a pair."""
     command: jax.Array
     """(n,) command of the far hands [m]."""
     hand: HandMemory[jax.Array]
@@ -34,7 +35,8 @@ class LiftState(NamedTuple):
     def plant(self) -> Plant:
         """The table without touch and ball."""
         table = self.table.haptic if isinstance(self.table, BallPlant) else self.table
-        return table.plant if isinstance(table, HapticPlant) else table
+        plant: Plant = table.plant if isinstance(table, HapticPlant) else table
+        return plant
 
 
 class LiftView:

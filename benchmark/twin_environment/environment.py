@@ -176,7 +176,10 @@ class TwinEnv:
         lift = self.twin.at_rest(lifts)._replace(step=jnp.zeros(count, jnp.int32))
         state = State(lift, jnp.zeros((ADDED, count)), nothing_missed(self.twin, count), lane)
         # Of the types that later states have, so that a step is compiled once.
-        return jax.tree.map(lambda each: jax.lax.convert_element_type(each, each.dtype), state)
+        typed: State = jax.tree.map(
+            lambda each: jax.lax.convert_element_type(each, each.dtype), state
+        )
+        return typed
 
     def share(self, state: State) -> Share:
         """Return the noise of the coming step."""
@@ -227,7 +230,10 @@ class TwinEnv:
 
     def renewed(self, state: State, ended: jax.Array, fresh: jax.Array) -> State:
         """Return lifts, of which those that have ended begin anew as ``fresh`` ones (n,)."""
-        return jax.tree.map(lambda new, old: jnp.where(ended, new, old), self.begun(fresh), state)
+        chosen: State = jax.tree.map(
+            lambda new, old: jnp.where(ended, new, old), self.begun(fresh), state
+        )
+        return chosen
 
     def _many(self, fresh: jax.Array, state: State, robot: jax.Array, human: jax.Array) -> Any:
         """Return observations, states, rewards, ends and scores [mm] of n lifts after a step."""

@@ -62,10 +62,11 @@ def table_of(tree: Any, lead: int = 0) -> Table:
 
     def back(found: jax.Array) -> Any:
         columns = found.T
-        return shape.unflatten(
+        parts = [
             columns[first:last].reshape(*form, -1).astype(kind)
             for first, last, form, kind in zip(ends, ends[1:], inner, kinds, strict=False)
-        )
+        ]
+        return jax.tree.unflatten(shape, parts)
 
     return Table(jnp.concatenate(rows, axis=-1), back)
 
