@@ -19,7 +19,7 @@ from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import Jobs
+from colift.cli.options import Device, Jobs
 from colift.cli.remedies import argument
 from colift.cli.settings import with_settings
 from colift.cli.tables.training import training_table
@@ -62,7 +62,6 @@ def add(
     meaning: str,
     total: Callable[[Any], int] = lambda settings: settings.updates,
     jax: bool = True,
-    jobs: bool = True,
     **words: Mapping[str, str],
 ) -> None:
     """Add a trainer as a command.
@@ -77,21 +76,23 @@ def add(
         What is an option, as in :func:`.with_settings`.
     total
         Returns the length of the bar of progress, from the settings.
-    jax, jobs
-        Whether it needs JAX, and whether it plays lifts in worker processes.
+    jax
+        Whether it computes with JAX, on one device; else it plays lifts in worker processes.
     """
 
-    def command(*, out: Out, seeds: Seeds = 1, settings: Any, jobs: Jobs = None) -> None:
-        if jax:
-            require_jax()
+    def train(out: Path, seeds: int, settings: Any, jobs: int | None) -> None:
         module, _, function = place.partition(":")
-        train = getattr(import_module(f"colift.benchmark.training.{module}"), function)
-        train_all(name, settings, seeds, out, total(settings), jobs, train)
+        trainer = getattr(import_module(f"colift.benchmark.training.{module}"), function)
+        train_all(name, settings, seeds, out, total(settings), jobs, trainer)
 
-    def alone(*, out: Out, seeds: Seeds = 1, settings: Any) -> None:
-        command(out=out, seeds=seeds, settings=settings, jobs=1)
+    def on_device(*, out: Out, seeds: Seeds = 1, settings: Any, device: Device = None) -> None:
+        require_jax(device)
+        train(out, seeds, settings, 1)
 
-    chosen = command if jobs else alone
+    def in_workers(*, out: Out, seeds: Seeds = 1, settings: Any, jobs: Jobs = None) -> None:
+        train(out, seeds, settings, jobs)
+
+    chosen = on_device if jax else in_workers
     chosen.__doc__ = meaning
     app.command(name)(with_settings(chosen, settings, *options, **words))
 
@@ -116,7 +117,6 @@ add(
     *ApgSettings.__dataclass_fields__,
     meaning="Train a recurrent network by gradients through whole lifts of the twin (extra: "
     "train).",
-    jobs=False,
     task={"help": "Task: level, or one that is stated by rules."},
 )
 

@@ -52,6 +52,7 @@ FIGURES: Final[Mapping[str, Figure]] = {
     "twin_worst_error": Figure(meaning="largest error of a lift's RMSE in the twin", most=0.015),
     "twin_speed_ratio": Figure(meaning="control steps/s of the twin over the engine's", least=500),
     "twin_gradient_ratio": Figure(meaning="the same of lifts with their gradient", least=50),
+    "twin_environment_ratio": Figure(meaning="the same of the environment's steps", least=200),
 }
 
 

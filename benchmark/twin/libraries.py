@@ -60,6 +60,12 @@ def require_jax(device: str | None = None) -> None:
         raise InputError(f"JAX is in use on a {found}: choose the device before")
 
 
+def device_in_use() -> str:
+    """Return the device that JAX computes on, ``"cpu"`` or ``"gpu"``."""
+    jax: Any = importlib.import_module("jax")
+    return str(jax.default_backend())
+
+
 def _cache() -> Path:
     """Return the folder of compiled code, one for each kind of processor."""
     root = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
