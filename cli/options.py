@@ -136,7 +136,8 @@ def chosen_suite(
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
-    With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with that.
+    With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with
+    that.
 
     Raises
     ------
