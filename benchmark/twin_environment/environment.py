@@ -9,6 +9,7 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
+from colift.benchmark.environment.state import TrueState
 from colift.benchmark.episode.reward_unit import UNIT
 from colift.benchmark.twin.learning_person import SENSES, added_in_step, person_senses
 from colift.benchmark.twin.lifts import Lifts, Share
@@ -23,6 +24,7 @@ from colift.benchmark.twin_environment.running import (
     with_step,
 )
 from colift.benchmark.twin_environment.spaces import Box
+from colift.benchmark.world.table import WEIGHT_SHARE
 
 ROBOT: Final = "robot"
 HUMAN: Final = "human"
@@ -167,6 +169,26 @@ class TwinEnv:
             dict.fromkeys([*self.agents, "__all__"], done),
             {"score_mm": jnp.full(self.num_agents, score)},
         )
+
+    @partial(jax.jit, static_argnums=0)
+    def true_state(self, state: State) -> jax.Array:
+        """Return the numbers of :class:`.TrueState` (9,), for critics: no agent sees them."""
+        many = jax.tree.map(lambda each: each[..., jnp.newaxis], state)
+        lifts, plant = self.pool.lifts(many.lane), many.lift.plant
+        moving, near = plant.moving, plant.heights[0]
+        frame = jnp.maximum(many.lift.step * lifts.frames - 1, 0)
+        found = {
+            TrueState.HUMAN_END: near,
+            TrueState.ROBOT_END: near + plant.differences[0],
+            TrueState.HUMAN_VELOCITY: moving.velocity,
+            TrueState.ROBOT_VELOCITY: moving.far_velocity,
+            TrueState.HAND_HEIGHT: plant.hand,
+            TrueState.HAND_COMMAND: many.lift.command,
+            TrueState.HUMAN_FORCE: plant.forces[0] + WEIGHT_SHARE * lifts.body.load,
+            TrueState.ROBOT_FORCE: moving.far_force,
+            TrueState.TARGET: lifts.drawn.target.at(frame),
+        }
+        return jnp.stack([found[each][0] for each in TrueState])
 
     # n lifts at a time, the last axis of each array
 

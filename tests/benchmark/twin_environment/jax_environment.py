@@ -1,11 +1,15 @@
 """The twin as an environment: the score as reward, batches, ends, gradients, conventions."""
 
+from contextlib import closing
+
 import jax
 import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift import twin as public
 from colift.base.errors import InputError
+from colift.benchmark.environment.state import true_state
+from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.twin.drawing import draw_lifts
 from colift.benchmark.twin.rollout import rollout
@@ -211,3 +215,21 @@ def test_the_robot_alone_is_as_in_gymnax():
 def test_settings_out_of_range_are_refused(settings, message):
     with pytest.raises(InputError, match=message):
         public.make(**settings)
+
+
+@pytest.mark.parametrize("suite", ["standard-v1", "intent-v1"])
+def test_the_true_state_is_that_of_the_engine(suite):
+    scenario = make_suite(suite).scenarios[0]
+    env = TwinEnv(TaskTwin.of([scenario]), LiftPool(draw_lifts([(scenario, 0)])))
+    seen, state = env.reset(jax.random.key(0))
+    with closing(Lift(scenario)) as lift:
+        lift.reset(0)
+        human = lift.scripted_human()
+        for _ in range(25):
+            action = following(np.asarray(seen[ROBOT]))
+            lift.step(human.act(lift.human_observation()), np.array([float(action)]))
+            seen, state, *_ = env.step(jax.random.key(1), state, {ROBOT: jnp.array([action])})
+        wanted = true_state(lift)
+    found = np.asarray(env.true_state(state))
+    size = np.array([1e-3] * 2 + [5e-3] * 2 + [1e-3] * 2 + [0.1] * 2 + [1e-6])
+    assert (np.abs(found - wanted) < size).all(), (found, wanted)
