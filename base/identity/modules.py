@@ -3,8 +3,6 @@
 import ast
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
-from importlib import import_module
 from importlib.util import find_spec, module_from_spec
 from typing import Any, Final, NamedTuple
 
@@ -15,9 +13,6 @@ from colift.base.identity.statements import (
     names_in,
     targets,
 )
-
-COLIFT: Final = __name__.partition(".")[0]
-"""The name of this package."""
 
 EFFECTS: Final = ""
 """The name for a module's statements that belong to none of its definitions."""
@@ -30,13 +25,7 @@ class Reference(NamedTuple):
     name: str
 
     def value(self) -> object:
-        """Return what the module has under the name; None if nothing, or if it is not imported.
-
-        One of ours that a function imports is imported here.
-        """
-        if self.module not in sys.modules and self.module.startswith(f"{COLIFT}."):
-            with suppress(ImportError):  # Of a library that is not installed.
-                import_module(self.module)
+        """Return what the module has under the name; None if nothing, or if it is not imported."""
         return getattr(sys.modules.get(self.module), "__dict__", {}).get(self.name)
 
 

@@ -43,7 +43,10 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
         (["train", "cem", "--out", "x", "--elite", "99"], "elite must be below population"),
         (["train", "cem", "--out", "x", "--lifts", "90001"], "lifts must be at most 90000"),
         (["train", "ppo", "--out", "x"], "no trainer 'ppo'; trainers: cem, apg"),
-        (["train", "apg", "--out", "x", "--device", "tpu"], "--device must be cpu or gpu, got 'tpu'"),
+        (
+            ["train", "apg", "--out", "x", "--device", "tpu"],
+            "--device must be cpu or gpu, got 'tpu'",
+        ),
         (["train", "apg", "--out", "x", "--task", "tea"], "unknown task 'tea'; known: "),
         (["train", "cem", "--out", "/dev/null"], "cannot use /dev/null"),
         (["train", "cem", "--out", "x", "--jobs", "0"], "jobs must be at least 1, got 0"),
