@@ -45,7 +45,7 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
         (["train", "ppo", "--out", "x"], "no trainer 'ppo'; trainers: cem, apg"),
         (
             ["train", "apg", "--out", "x", "--device", "tpu"],
-            "--device must be cpu or gpu, got 'tpu'",
+            "must be cpu or gpu, got 'tpu'",
         ),
         (["train", "apg", "--out", "x", "--task", "tea"], "unknown task 'tea'; known: "),
         (["train", "cem", "--out", "/dev/null"], "cannot use /dev/null"),
