@@ -20,7 +20,10 @@ SUITES: Final = "colift.suites"
 TASKS: Final = "colift.tasks"
 ROBOTS: Final = "colift.robots"
 
-LEADING_SUITES: Final = ("robust-v1", "standard-v1")
+STANDARD_SUITE: Final = "standard-v1"
+"""The suite that is played if none is named."""
+
+LEADING_SUITES: Final = ("robust-v1", STANDARD_SUITE)
 """The suites that lead every list, in this order."""
 
 FEW: Final = 8

@@ -11,7 +11,7 @@ import typer
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
-from colift.base.registry import POLICIES, check_plays, entries, playing
+from colift.base.registry import POLICIES, STANDARD_SUITE, check_plays, entries, playing
 from colift.benchmark.bundle import is_bundle
 from colift.benchmark.channels import Channel
 from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
@@ -64,7 +64,7 @@ def compare_policies(
         str | None,
         typer.Option(
             metavar="NAME",
-            help="Suite of lifts; default: that of the bundles, else standard-v1.",
+            help=f"Suite of lifts; default: that of the bundles, else {STANDARD_SUITE}.",
             autocompletion=suites,
         ),
     ] = None,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 from colift.base.errors import InputError
+from colift.base.registry import STANDARD_SUITE
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
 from colift.cli.completion import behaviours, channels, policies, robots, suites
@@ -18,9 +19,6 @@ from colift.cli.remedies import naming, opened
 # The engine takes a second to import: not for a help text or a completion.
 if TYPE_CHECKING:
     from colift.benchmark.suites.suite import Suite
-
-STANDARD: Final = "standard-v1"
-"""The default suite."""
 
 DIGITS: Final = 12
 """Digits of the largest seed."""
@@ -45,7 +43,7 @@ SuiteName = Annotated[
     typer.Option(
         "--suite",
         metavar="NAME",
-        help=f"Suite of lifts; default: {STANDARD}.",
+        help=f"Suite of lifts; default: {STANDARD_SUITE}.",
         autocompletion=suites,
     ),
 ]
@@ -138,7 +136,8 @@ def chosen_suite(
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
-    With neither a name nor recordings, it is :data:`STANDARD`. With a robot, it plays with that.
+    With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with
+    that.
 
     Raises
     ------
@@ -148,7 +147,7 @@ def chosen_suite(
     from colift.benchmark.suites.suite import make_suite
 
     if recordings is None:
-        suite = make_suite(name or STANDARD)
+        suite = make_suite(name or STANDARD_SUITE)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
         suite = suite.with_robot(robot)

@@ -23,6 +23,7 @@ from colift.cli.options import Jobs
 from colift.cli.remedies import argument
 from colift.cli.tables.row import SectionRow, row_table, row_text
 from colift.leaderboard.client import RemoteBoard
+from colift.leaderboard.core.board import SUITE as NEW
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.practice.season_import import open_with_practice
@@ -56,7 +57,7 @@ def submit_policy(
         str | None,
         typer.Option(
             metavar="NAME",
-            help="Suite that the board must have; a new board has standard-v1 by default.",
+            help=f"Suite that the board must have; default of a new board: {NEW}.",
             autocompletion=suites,
         ),
     ] = None,

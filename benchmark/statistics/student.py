@@ -30,7 +30,7 @@ def t_cdf(t: float, freedom: int) -> float:
     inside = total * math.sin(theta)
     if odd:
         inside = 2.0 / math.pi * (theta + inside)
-    return 0.5 + 0.5 * inside
+    return min(max(0.5 + 0.5 * inside, 0.0), 1.0)  # The series is rounded.
 
 
 @functools.lru_cache(maxsize=1024)

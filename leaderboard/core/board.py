@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final, Self
 
 from colift.agents.submissions.submission import Submission
 from colift.base.errors import InputError
+from colift.base.registry import LEADING_SUITES
 from colift.leaderboard.core.seasons import Clock, ImportedSeason, SeasonBook, utc_now
 from colift.leaderboard.core.standings import (
     RankedRow,
@@ -48,7 +49,7 @@ if TYPE_CHECKING:
 FIRST: Final = "1"
 """Name of a new board's season."""
 
-SUITE: Final = "standard-v1"
+SUITE: Final = LEADING_SUITES[0]
 """Default suite of a new board."""
 
 IMPORTED: Final = "imported practice season"
@@ -86,7 +87,7 @@ class Board:
         folder
             The board's folder, or a new or empty one.
         suite
-            Name of the required suite; None accepts any, and is ``standard-v1`` for a new board.
+            Name of the required suite; None accepts any, and is :data:`SUITE` for a new board.
         url
             A PostgreSQL database, ``postgresql://user@host/name``, instead of a file in the folder;
             by default that of the environment's ``COLIFT_DATABASE_URL``, if there is one.

@@ -15,6 +15,7 @@ from typing import Final
 
 from colift.agents.sandbox.host.levels import choose
 from colift.base.errors import EvaluatorFault
+from colift.base.registry import LEADING_SUITES
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.results.scores import ScoreTable
@@ -26,24 +27,18 @@ from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season
 from colift.leaderboard.replays.chosen import FILE, chosen_replays
 
-NAME: Final = "practice"
-"""Name of the season on the standard suite; others add that of their suite."""
-
-STANDARD: Final = "standard-v1"
-
-SUITES: Final = ("robust-v1", STANDARD, "paper-v1")
-"""The suites that have a practice season, the leading one first."""
+SUITES: Final = (*LEADING_SUITES, "paper-v1")
+"""The suites that have a practice season."""
 
 
 def practice_season(suite: str) -> Season:
-    """Return the practice season on a suite; its secret follows from the suite's name.
+    """Return the practice season on a suite: its name and its secret follow from the suite's.
 
     secret = SHA-256("colift practice season on SUITE")
     """
     made = make_suite(suite)
     secret = hashlib.sha256(f"colift practice season on {suite}".encode()).digest()
-    name = NAME if suite == STANDARD else f"{NAME}-{suite}"
-    return Season(name=name, suite=made, secret=secret)
+    return Season(name=f"practice-{suite}", suite=made, secret=secret)
 
 
 def play_policy(

@@ -4,12 +4,11 @@ import functools
 import inspect
 from dataclasses import dataclass
 
-from colift.base.registry import SUITES, entries
+from colift.base.registry import STANDARD_SUITE, SUITES, entries
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.verification.checking import SUITE as CHECKED
 from colift.benchmark.verification.checking import checked_with
-from colift.leaderboard.core.board import SUITE as PLAYED
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +36,7 @@ def task_view(suite: str) -> TaskView:
     return TaskView(
         level=task.name == LEVEL.name,
         words=_words(task),
-        run="" if suite == PLAYED else f" --suite {suite}",
+        run="" if suite == STANDARD_SUITE else f" --suite {suite}",
         check="" if checked == CHECKED else f" --suite {checked}",
     )
 

@@ -203,7 +203,7 @@ def test_what_only_reads_or_changes_a_board_makes_none(colift, tmp_path, command
 def test_a_first_look_without_a_board_shows_the_practice_season(colift):
     done = colift("board")
     assert done.returncode == 0
-    assert "Season practice" in done.stdout
+    assert "Season practice-robust-v1" in done.stdout
 
 
 @pytest.mark.parametrize("command", ["board", "row"])

@@ -17,11 +17,11 @@ class AgreeAdmittanceParameters:
 
     compliance: Positive = 0.49
     """c, speed of the hands per force [m/s/N]. A table inclined by 50 mm loads them with 0.8 N."""
-    spring: Positive = 14.0
+    spring: Positive = 9.8
     """k, speed per distance from the robot's own hurdle [1/s]."""
     time: Positive = 0.085
     """Time constant of the speed [s], the virtual mass over the virtual damping."""
-    early: Positive = 0.42
+    early: Positive = 0.21
     """Time before its window opens at which the hurdle begins to attract the hands [s]."""
 
     def __post_init__(self) -> None:

@@ -36,21 +36,23 @@ SMALL: Final = 0.003
 class AgreeGameParameters:
     """Parameters of :class:`AgreeGame`, tuned by ``colift admit agree-v1 --tune``."""
 
-    early: Positive = 0.7
+    early: Positive = 0.35
     """Time before its window opens at which it may set out [s]."""
-    lead: Positive = 0.05
+    lead: Positive = 0.06
     """Time by which the human's end is extrapolated while it is followed [s]."""
-    apart: Probability = 0.65
+    apart: Probability = 0.325
     """Probability that the human has a goal of its own from which the robot gives way."""
-    served: Positive = 0.25
+    served: Positive = 0.7
     """Time that the table rests at the human's goal until that hurdle counts as passed [s]."""
-    needed: Positive = 0.65
+    needed: Positive = 0.91
     """Time before the end of its window from which it no longer gives way [s]."""
-    respite: Positive = 0.3
+    respite: Positive = 0.21
     """Time for which it does not give way again after it has let the human go first [s]."""
     pace: Positive = 8.0
     """Natural frequency of the approach [rad/s]."""
-    belief: BeliefParameters = field(default_factory=lambda: BeliefParameters(noise=0.056))
+    belief: BeliefParameters = field(
+        default_factory=lambda: BeliefParameters(pace=3.5, noise=0.028, along=0.56)
+    )
     """The filter of the human's goal."""
 
     def __post_init__(self) -> None:

@@ -15,9 +15,9 @@ from colift.agents.tasks.agree.observation import AgreeObservation
 class AgreeLeaderParameters:
     """Parameters of :class:`AgreeLeader`."""
 
-    early: Positive = 0.6
+    early: Positive = 0.357
     """Time before its window opens at which it sets out [s], to be there when the window opens."""
-    pace: Positive = 9.8
+    pace: Positive = 11.76
     """Natural frequency of the approach [rad/s]."""
 
     def __post_init__(self) -> None:

@@ -44,8 +44,8 @@ def test_the_database_in_the_folder_is_for_its_owner_alone(tmp_path):
     board.close()
 
 
-def test_a_new_board_is_on_the_standard_suite(open_board):
-    assert open_board().season.suite.name == "standard-v1"
+def test_a_new_board_is_on_the_leading_suite(open_board):
+    assert open_board().season.suite.name == "robust-v1"
 
 
 def test_a_board_is_found_again_with_the_same_secret(board, open_board):
