@@ -144,7 +144,8 @@ async def looked_at(page: Page) -> None:
     """Check what is shown when the lift is over."""
     await expect(page.locator("#result")).to_be_visible(timeout=WAIT_MS)
     offers = await page.evaluate("window.offers")
-    assert offers and set(offers) == {None}  # The next lift is offered with the score, not before.
+    assert offers
+    assert set(offers) == {None}  # The next lift is offered with the score, not before.
     assert await page.evaluate("document.pointerLockElement") is None
     score = await page.locator("[data-part=score]").inner_text()
     goals = await page.locator("[data-part=goals]").inner_text()
