@@ -11,11 +11,11 @@ from colift.agents.agent import FRAME
 from colift.agents.humans.hand import HandMemory, HandNoise, carry_out
 from colift.agents.humans.person import Person
 from colift.benchmark.episode.drops import pulled_off, slides_off
-from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import REFERENCE_RANGE, limited_command
 from colift.benchmark.episode.sensing import sight, touch
 from colift.benchmark.tasks.level.task import Level
+from colift.benchmark.tasks.running_score import WORST, square_at_end
 from colift.benchmark.tasks.touch import Ends, Touch, gathered
 from colift.benchmark.twin.ball_plant import BallPlant, ball_plant_at_rest
 from colift.benchmark.twin.body import DEPTH, pushed
@@ -30,9 +30,6 @@ from colift.benchmark.twin.plant import Plant, plant_at_rest
 from colift.benchmark.twin.view import LiftState, LiftView
 from colift.benchmark.world.interface import HISTORY_FRAMES
 from colift.robots.nao.kinematics import STROKE
-
-WORST = (FAILED_FRAME_MM / 1000) ** 2
-"""Square of the error that counts for a frame after a failure [m2]."""
 
 
 class Missed(NamedTuple):
@@ -237,5 +234,5 @@ class TaskTwin:
     ) -> jax.Array:
         """Return the scores (n,) [mm] of gathered squares, and of frames that are missing."""
         frames = lifts.steps * lifts.frames
-        error = frames * self.error(lifts, squares, frames) + missing * WORST
-        return 1000 * jnp.sqrt(error / (frames + missing) + 1e-12)
+        square = square_at_end(self.error(lifts, squares, frames), frames, missing)
+        return 1000 * jnp.sqrt(square + 1e-12)

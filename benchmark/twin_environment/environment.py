@@ -11,6 +11,7 @@ from colift.agents.actions import action_limit
 from colift.agents.agent import FRAME
 from colift.benchmark.environment.state import TrueState
 from colift.benchmark.episode.reward_unit import UNIT
+from colift.benchmark.tasks.running_score import square_at_end
 from colift.benchmark.twin.learning_person import SENSES, added_in_step, person_senses
 from colift.benchmark.twin.lifts import Lifts, Share
 from colift.benchmark.twin.task_twin import TaskTwin
@@ -19,7 +20,6 @@ from colift.benchmark.twin_environment.pool import LiftPool
 from colift.benchmark.twin_environment.running import (
     Running,
     nothing_missed,
-    square_at_end,
     square_so_far,
     with_step,
 )
@@ -238,7 +238,8 @@ class TwinEnv:
         over = left == 0
         played = lift.step * lifts.frames
         missing = jnp.maximum(left * lifts.frames, twin.unfinished(lift, lifts))
-        whole = square_at_end(twin, running, lifts, played, missing)
+        error = twin.error(lifts, running.gathered, played)
+        whole = square_at_end(error, played, missing)
         done = terminated | over
         square = jnp.where(done, whole, square_so_far(twin, running, lifts))
         before = square_so_far(twin, state.running, lifts)

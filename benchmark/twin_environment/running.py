@@ -5,9 +5,11 @@ from typing import Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
+from colift.benchmark.tasks.running_score import known_squares
 from colift.benchmark.tasks.touch import held
+from colift.benchmark.twin.functions import LIFTS
 from colift.benchmark.twin.lifts import Lifts
-from colift.benchmark.twin.task_twin import WORST, TaskTwin
+from colift.benchmark.twin.task_twin import TaskTwin
 
 FAR: Final = 1e4
 """Square distance from a place to be held, before there was one [m2]."""
@@ -45,21 +47,6 @@ def with_step(twin: TaskTwin, running: Running, squares: Sequence[jax.Array]) ->
 
 
 def square_so_far(twin: TaskTwin, running: Running, lifts: Lifts) -> jax.Array:
-    """Return the part of the square of the score that is known (n,) [m2].
-
-    A place that was not yet reached does not count; it counts in full as soon as the lift comes
-    near, and less and less as it comes nearer.
-    """
-    known = [
-        jnp.where(each < WORST, each, 0.0) if stay else each
-        for stay, each in zip(twin.stays, running.gathered, strict=True)
-    ]
+    """Return the part of the square of the score that is known (n,) [m2]."""
+    known = known_squares(LIFTS, running.gathered, twin.stays)
     return twin.error(lifts, known, lifts.steps * lifts.frames)
-
-
-def square_at_end(
-    twin: TaskTwin, running: Running, lifts: Lifts, played: jax.Array, missing: jax.Array
-) -> jax.Array:
-    """Return the square of the score (n,) [m2] of lifts with played and missing frames (n,)."""
-    error = played * twin.error(lifts, running.gathered, played) + missing * WORST
-    return error / (played + missing)
