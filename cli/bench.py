@@ -190,10 +190,10 @@ def _twin(device: str | None) -> Report:
     caption = "lifts with people outside all suites: 10 of a level table, 4 of the other tasks"
     deviation = table("The twin and the engine", titles, rows, caption=caption)
     fast = [(f"{each.lifts:,}", *(f"{rate / 1e6:.3g}" for rate in each[1:])) for each in speeds]
-    titles = ("lifts at a time", "whole lifts", "with gradients", "environment")
+    ways = ("lifts at a time", "whole lifts", "with gradients", "environment")
     over = ", ".join(f"{figures[name]:.0f} times" for name in ratios)
     caption = f"on one {device_in_use()}; the best are {over} the engine's, in this run"
-    speed = table("Million control steps per second", titles, fast, caption=caption)
+    speed = table("Million control steps per second", ways, fast, caption=caption)
     return content, (deviation, speed), [*missed(figures), *off]
 
 

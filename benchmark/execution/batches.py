@@ -40,7 +40,7 @@ class Batch:
         for scenario, some in alike(self.lifts):
             seeds = tuple(due.seed for due in some)
             episodes = play(self.policy, scenario, seeds, self.channel)
-            yield from zip([due.index for due in some], episodes, strict=True)
+            yield from zip([due.place for due in some], episodes, strict=True)
 
     def __call__(self) -> list[tuple[int, Episode]]:
         """Return all of :meth:`play`; worker processes run this."""
@@ -48,7 +48,7 @@ class Batch:
 
     def without(self, done: Container[int]) -> "Batch":
         """Return the batch without the places in ``done``."""
-        left = tuple(due for due in self.lifts if due.index not in done)
+        left = tuple(due for due in self.lifts if due.place not in done)
         return dataclasses.replace(self, lifts=left)
 
 

@@ -73,7 +73,7 @@ def twin_speeds(
             engine.append(_engine_speed(lift))
             for rate, play in zip(rates, ways, strict=True):
                 begin = time.perf_counter()
-                jax.block_until_ready(play())
+                jax.device_get(play())
                 rate.append(count * STEPS / (time.perf_counter() - begin))
         found.append(TwinSpeed(count, *(float(np.median(each)) for each in rates)))
         progress(1)
@@ -106,7 +106,8 @@ def _ways(pool: Lifts, layers: Layers, count: int) -> Sequence[Callable[[], Any]
             return (views, states), rewards[ROBOT].sum()
 
         begun = jax.vmap(env.reset)(jax.random.split(key, count))
-        return jax.lax.scan(step, begun, jax.random.split(key, STEPS))[1]
+        _, rewards = jax.lax.scan(step, begun, jax.random.split(key, STEPS))
+        return jnp.asarray(rewards)
 
     return (
         lambda: whole(layers, lifts),

@@ -29,7 +29,7 @@ LONGEST_SUITE_NAME: Final = 200
 class Due(NamedTuple):
     """A lift of a suite, which is to be played."""
 
-    index: int
+    place: int
     """Its place in the suite, counted from 0."""
     scenario: Scenario
     seed: int
@@ -68,10 +68,10 @@ class Suite:
         """Number of episodes."""
         return len(self.scenarios) * len(self.seeds)
 
-    def at(self, index: int) -> Due:
+    def at(self, place: int) -> Due:
         """Return the lift at a place: scenario by scenario, each with all seeds."""
-        row, column = divmod(index, len(self.seeds))
-        return Due(index, self.scenarios[row], self.seeds[column])
+        row, column = divmod(place, len(self.seeds))
+        return Due(place, self.scenarios[row], self.seeds[column])
 
     @property
     def hand_speed(self) -> float:

@@ -78,9 +78,9 @@ def test_a_batch_has_lifts_of_several_people():
     found = list(batches(PolicySpec(text="copy"), suite, done={7}))
     assert [len(batch.lifts) for batch in found] == [5, 4, *[5] * 58]
     lifts = [due for batch in found for due in batch.lifts]
-    assert [due.index for due in lifts] == [i for i in range(suite.size) if i != 7]
+    assert [due.place for due in lifts] == [i for i in range(suite.size) if i != 7]
     expected = [(each, seed) for each in suite.scenarios for seed in suite.seeds]
-    assert all((due.scenario, due.seed) == expected[due.index] for due in lifts)
+    assert all((due.scenario, due.seed) == expected[due.place] for due in lifts)
 
 
 def test_a_fault_of_the_machine_changes_nothing_but_the_count(failing, undisturbed, tmp_path):
