@@ -17,6 +17,7 @@ import jax.numpy as jnp
 from colift.agents.agent import FRAME
 from colift.benchmark.twin.arm import Arm, ArmVariation, arms_at_rest, drive
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.twin.inner import each_frame
 from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
@@ -132,7 +133,7 @@ def advance_plant(
         after = after._replace(reflex=reflex)
         return after, (after.height, after.far_height - after.height, force)
 
-    moving, (heights, differences, forces) = jax.lax.scan(
+    moving, (heights, differences, forces) = each_frame(
         frame, plant.moving, (references, shifts, commands)
     )
     return Plant(
