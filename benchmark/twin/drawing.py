@@ -6,7 +6,7 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 import numpy as np
-from colift.agents.humans import Embodied
+from colift.agents.humans import Embodied, Subject
 from colift.agents.humans.following import FOLLOWS_PLAN
 from colift.agents.humans.hand import drawn_noise
 from colift.agents.humans.person import Person
@@ -25,7 +25,7 @@ from colift.benchmark.tasks.touch import Touch
 from colift.benchmark.twin.arm import ArmVariation
 from colift.benchmark.twin.body import Body, bodies
 from colift.benchmark.twin.columns import LiftSeries, columns
-from colift.benchmark.twin.lifts import Lifts, chunk
+from colift.benchmark.twin.lifts import Hand, Lifts, chunk
 from colift.benchmark.world.table import TABLE_MASS
 from numpy.typing import NDArray
 
@@ -183,6 +183,7 @@ def stack(drawn: Sequence[DrawnLift]) -> Lifts:
         drawn=Drawn(target, series, facts, chance, manner),
         gain=noise[:, :, 0],
         tremor=noise[:, :, 1],
+        hand=columns([_hand(lift.scenario.subject) for lift in drawn]),
         errors=_joined([lift.errors for lift in drawn], longest),
         ages=_joined([lift.ages for lift in drawn], longest),
         stop=jnp.asarray([lift.stop for lift in drawn], float),
@@ -202,6 +203,11 @@ def draw_lifts(lifts: Sequence[tuple[Scenario, int]]) -> Lifts:
     """
     rules = common_rules([scenario for scenario, _ in lifts]) if lifts else None
     return stack([draw_lift(scenario, seed, rules) for scenario, seed in lifts])
+
+
+def _hand(person: Subject) -> Hand:
+    """Return how unsteady a person's hand is."""
+    return Hand(person.motor_noise, person.tremor_amplitude, person.tremor_frequency)
 
 
 def _arms(conditions: Sequence[DrawnConditions | None], body: Body) -> ArmVariation | None:

@@ -10,6 +10,17 @@ from colift.benchmark.twin.body import CHUNK, Body
 Many = TypeVar("Many")
 
 
+class Hand(NamedTuple):
+    """How unsteady the hands of n people are; see :class:`.Subject`."""
+
+    motor_noise: Any
+    """(n,)"""
+    tremor_amplitude: Any
+    """(n,) [m]"""
+    tremor_frequency: Any
+    """(n,) [Hz]"""
+
+
 class Lifts(NamedTuple):
     """n lifts of at most s steps of f frames, in single precision."""
 
@@ -19,6 +30,8 @@ class Lifts(NamedTuple):
     """(s, f, n) signal-dependent noise of the person's hand, relative to its velocity."""
     tremor: jax.Array
     """(s, f, n) tremor of the hand [m]."""
+    hand: Hand
+    """The hands that have this noise."""
     errors: jax.Array
     """(s, k, n) errors of the robot's senses."""
     ages: jax.Array

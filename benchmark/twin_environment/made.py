@@ -3,12 +3,14 @@
 from collections.abc import Callable
 from typing import Any, Final
 
+import jax
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import ANY, DRAW, Drawing, make_drawing
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.suites.catalogue import TASK
+from colift.benchmark.twin.bulk import many_lifts
 from colift.benchmark.twin.drawing import check_modelled, common_rules, draw_lift, stack
 from colift.benchmark.twin.task_twin import TaskTwin
 from colift.benchmark.twin_environment.environment import ROBOT, TwinEnv
@@ -31,6 +33,7 @@ def make(
     control_period: float = CONTROL_PERIOD,
     latency: float = LATENCY,
     lifts: int = LIFTS,
+    plans: int | None = None,
     seed: int = 0,
     box: Callable[..., Any] = Box,
     single: bool = False,
@@ -47,6 +50,9 @@ def make(
         As for :func:`.parallel_env`; by default behaviours and people are drawn.
     lifts
         Number of lifts from which the environment draws; they are played again with other actions.
+    plans
+        Number of plans, and of people's bodies, that these lifts have in turn; the rest is drawn
+        anew for each (:func:`.many_lifts`). None: each lift has its own, as in the engine.
     seed
         Draws these lifts.
     box, single
@@ -60,7 +66,7 @@ def make(
     if agents not in (ROBOT, BOTH):
         raise InputError(f"agents must be {ROBOT!r} or {BOTH!r}, got {agents!r}")
     drawing = drawing_of(task, behaviour, subject, control_period, latency)
-    twin, pool = TaskTwin.of(drawing.scenarios), drawn_pool(drawing, lifts, seed)
+    twin, pool = TaskTwin.of(drawing.scenarios), drawn_pool(drawing, lifts, seed, plans)
     return TwinEnv(twin, pool, learns=agents == BOTH, box=box, single=single)
 
 
@@ -82,16 +88,23 @@ def drawing_of(
     return drawing
 
 
-def drawn_pool(drawing: Drawing, lifts: int, seed: int) -> LiftPool:
-    """Return lifts of a source, which the seed draws.
+def drawn_pool(drawing: Drawing, lifts: int, seed: int, plans: int | None = None) -> LiftPool:
+    """Return lifts of a source, which the seed draws; see :func:`make`.
 
     Raises
     ------
     InputError
-        If there is none.
+        If there is none, or there are more plans than lifts.
     """
     if lifts < 1:
         raise InputError(f"lifts must be at least 1, got {lifts}")
+    own = lifts if plans is None else plans
+    if not 1 <= own <= lifts:
+        raise InputError(f"plans must be 1 to {lifts}, the number of lifts, got {plans}")
     rules = common_rules(drawing.scenarios)
-    chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(lifts)]
-    return LiftPool(stack([draw_lift(scenario, each, rules) for scenario, each in chosen]))
+    chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(own)]
+    drawn = stack([draw_lift(scenario, each, rules) for scenario, each in chosen])
+    if own < lifts:
+        key = jax.random.key(derive_seed(seed, "many"))
+        drawn = many_lifts(TaskTwin.of(drawing.scenarios), drawn, lifts, key)
+    return LiftPool(drawn)

@@ -92,18 +92,19 @@ class LiftPool:
             is_leaf=lambda each: isinstance(each, LiftSeries),
         )
         self._fixed = table_of(
-            (drawn.facts, drawn.manner, lifts.stop, lifts.steps, lifts.body, lifts.arms)
+            (drawn.facts, drawn.manner, lifts.hand, lifts.stop, lifts.steps, lifts.body, lifts.arms)
         )
 
     def lifts(self, lane: jax.Array) -> Lifts:
         """Return n lifts of the pool; their noise is that of no step, see :meth:`share`."""
-        facts, manner, stop, steps, body, arms = self._fixed.tree(self._fixed.rows[lane])
+        facts, manner, hand, stop, steps, body, arms = self._fixed.tree(self._fixed.rows[lane])
         target, series, chance = jax.tree.map(lambda table: LaneSeries(table, lane), self._plans)
         none = jnp.zeros((0, self.frames, len(lane)))
         return Lifts(
             drawn=Drawn(target, series, facts, chance, manner),
             gain=none,
             tremor=none,
+            hand=hand,
             errors=none,
             ages=none,
             stop=stop,
