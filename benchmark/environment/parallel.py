@@ -294,6 +294,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         """
         self._check_begun()
         human, self._human = self._human, None
+        if self.lift.frame == 0:
+            return self.lift.scripted_human()
         return human or bring_to(self.lift, self.save())
 
     def render(self) -> NDArray[np.uint8] | None:
