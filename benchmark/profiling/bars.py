@@ -53,6 +53,7 @@ FIGURES: Final[Mapping[str, Figure]] = {
     "twin_speed_ratio": Figure(meaning="control steps/s of the twin over the engine's", least=500),
     "twin_gradient_ratio": Figure(meaning="the same of lifts with their gradient", least=50),
     "twin_environment_ratio": Figure(meaning="the same of the environment's steps", least=200),
+    "twin_bulk_ratio": Figure(meaning="lifts drawn in bulk over those drawn one by one", least=15),
 }
 
 

@@ -11,9 +11,11 @@ import numpy as np
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.level.task import BEHAVIOURS, LEVEL
-from colift.benchmark.twin.drawing import draw_lift, stack
+from colift.benchmark.twin.bulk import many_lifts
+from colift.benchmark.twin.drawing import DrawnLift, draw_lift, stack
 from colift.benchmark.twin.lifts import Lifts, some
 from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
@@ -30,6 +32,9 @@ STEPS: Final = 60
 """Steps of each lift: all are cut to the same length, so that none is counted at rest."""
 
 DRAWN: Final = 64
+MANY: Final = 4096
+"""Lifts drawn in bulk."""
+
 ROUNDS: Final = 5
 _SEED: Final = 211_000
 
@@ -60,6 +65,7 @@ def twin_speeds(
     dict
         ``twin_speed_ratio``, ``twin_gradient_ratio`` and ``twin_environment_ratio``: the largest
         over the engine's control steps per second, which plays ``copy`` in one process.
+        ``twin_bulk_ratio``: the speed of :func:`.many_lifts` over that of drawing one by one.
     """
     pool, layers = _drawn(), _layers()
     lift = Lift(make_scenario("smooth", "S1"))
@@ -87,7 +93,20 @@ def twin_speeds(
             ("environment", "environment"),
         )
     }
-    return found, ratios
+    return found, {**ratios, "twin_bulk_ratio": _bulk_ratio()}
+
+
+def _bulk_ratio() -> float:
+    """Return the speed of drawing whole lifts in bulk over that of drawing them one by one."""
+    twin, lifts = TaskTwin(LEVEL, LEVEL.person), stack(_whole_lifts())
+    ratios = []
+    for draw in range(ROUNDS + 1):  # The first time it compiles.
+        begin = time.perf_counter()
+        stack(_whole_lifts())
+        one = time.perf_counter()
+        jax.device_get(many_lifts(twin, lifts, MANY, jax.random.key(draw)).stop)
+        ratios.append((one - begin) / DRAWN / ((time.perf_counter() - one) / MANY))
+    return float(np.median(ratios[1:]))
 
 
 def _ways(pool: Lifts, layers: Layers, count: int) -> Sequence[Callable[[], Any]]:
@@ -117,12 +136,14 @@ def _ways(pool: Lifts, layers: Layers, count: int) -> Sequence[Callable[[], Any]
 
 
 def _drawn() -> Lifts:
+    return stack(_whole_lifts(STEPS * CONTROL_PERIOD))._replace(steps=jnp.full(DRAWN, STEPS))
+
+
+def _whole_lifts(longest: float | None = None) -> list[DrawnLift]:
     scenarios = [
         make_scenario(BEHAVIOURS[i % len(BEHAVIOURS)], f"draw-{_SEED + i}") for i in range(DRAWN)
     ]
-    longest = STEPS * scenarios[0].control_period
-    drawn = [draw_lift(each, _SEED + i, longest=longest) for i, each in enumerate(scenarios)]
-    return stack(drawn)._replace(steps=jnp.full(DRAWN, STEPS))
+    return [draw_lift(each, _SEED + i, longest=longest) for i, each in enumerate(scenarios)]
 
 
 def _layers() -> Layers:
