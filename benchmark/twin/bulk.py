@@ -41,7 +41,8 @@ def many_lifts(twin: TaskTwin, lifts: Lifts, count: int, key: jax.Array) -> Lift
     """
     if lifts.arms is not None:
         raise InputError("lifts with drawn conditions are drawn one by one")
-    return _many(twin, lifts, count, key)
+    drawn: Lifts = _many(twin, lifts, count, key)
+    return drawn
 
 
 @partial(jax.jit, static_argnums=(0, 2))
@@ -76,7 +77,7 @@ def tremor(key: jax.Array, lifts: Lifts) -> jax.Array:
     phase = 2 * math.pi * jax.random.uniform(key, (lifts.size,))
     omega = 2 * math.pi * lifts.hand.tremor_frequency
     time = FRAME * jnp.arange(lifts.longest * lifts.frames).reshape(-1, lifts.frames, 1)
-    return lifts.hand.tremor_amplitude * jnp.sin(omega * time + phase)
+    return jnp.asarray(lifts.hand.tremor_amplitude * jnp.sin(omega * time + phase))
 
 
 def sensor_errors(key: jax.Array, senses: tuple[Sense, ...], steps: int, count: int) -> jax.Array:

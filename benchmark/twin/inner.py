@@ -13,6 +13,6 @@ H200, 131,072 lifts at a time). On a processor it makes none faster, and compili
 """
 
 
-def each_frame(step: Callable[..., Any], begun: Any, due: Any) -> Any:
+def each_frame(step: Callable[..., Any], begun: Any, due: Any) -> tuple[Any, Any]:
     """Return what is left after some frames, and the output of each, as :func:`jax.lax.scan`."""
     return jax.lax.scan(step, begun, due, unroll=UNROLLED.get(jax.default_backend(), 1))
