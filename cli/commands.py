@@ -29,7 +29,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
     },
     "Submit a policy": {
         "new": "new:new",
-        "train": "train_offline:app",
+        "train": "train:app",
         "check": "check:check",
         "submit": "submit:submit_policy",
         "verify": "verify:verify_bundle",

@@ -102,6 +102,13 @@ Jobs = Annotated[
         help=f"Worker processes; default: {JOBS} if set, else as many as processors may be used.",
     ),
 ]
+Device = Annotated[
+    str | None,
+    typer.Option(
+        metavar="cpu|gpu",
+        help="Device of the twin; default: a GPU if there is one and the extra cuda is installed.",
+    ),
+]
 Dask = Annotated[
     str | None,
     typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),

@@ -4,6 +4,7 @@ import sys
 from typing import Annotated, Any, Final
 
 import typer
+from colift.base.engine import ENGINE, NO_ENGINE
 from colift.base.errors import EvaluatorFault, InputError
 from colift.cli.commands import Commands
 from colift.cli.document import begin, print_json_error
@@ -79,6 +80,10 @@ def execute() -> int | None:
         sys.stdout.flush()
     except InputError as error:
         return _failed(explained(error), 2)
+    except ModuleNotFoundError as error:
+        if error.name != ENGINE:
+            raise
+        return _failed(NO_ENGINE, 2)
     except EvaluatorFault as fault:
         return _failed(str(fault), 1)
     except typer.Abort:  # Some versions of Typer turn Ctrl-C into this.

@@ -12,6 +12,7 @@ from colift.benchmark.execution.progress import job_bar
 from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, Why, opened_board
 from colift.cli.options import Jobs
 from colift.leaderboard.core.board import LOCAL, Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.queue import WorkerQueue
@@ -34,7 +35,7 @@ DecidedBy = Annotated[
 
 
 def _decision(
-    act: Callable[[Board, str, str, str, str], None], outcome: str, *, ranked: bool
+    act: Callable[[Decisions, str, str, str, str], None], outcome: str, *, ranked: bool
 ) -> Callable[..., None]:
     """Return the command for a decision about a row that must be ranked, or must not."""
 
@@ -50,7 +51,7 @@ def _decision(
                 name = f"{found.row.name} in season {found.row.season}"
                 state = "already out of" if ranked else "not out of"
                 raise InputError(f"{name} is {state} the ranking")
-            act(place, found.row.season, found.row.submission, by, why)
+            act(Decisions(place), found.row.season, found.row.submission, by, why)
         print(f"{found.row.name} is {outcome}")
 
     return decide
@@ -58,12 +59,12 @@ def _decision(
 
 app.command(
     "withdraw", help="Take a row out of the ranking at its submitter's request; it stays visible."
-)(_decision(Board.withdraw, "withdrawn", ranked=True))
+)(_decision(Decisions.withdraw, "withdrawn", ranked=True))
 app.command("remove", help="Take a row out of the ranking as the maintainer; it stays visible.")(
-    _decision(Board.remove, "removed from the ranking", ranked=True)
+    _decision(Decisions.remove, "removed from the ranking", ranked=True)
 )
 app.command("reinstate", help="Return a withdrawn or removed row to the ranking.")(
-    _decision(Board.reinstate, "reinstated", ranked=False)
+    _decision(Decisions.reinstate, "reinstated", ranked=False)
 )
 
 

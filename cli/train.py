@@ -14,13 +14,12 @@ from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
 from colift.benchmark.tasks.level.task import LEVEL
-from colift.benchmark.training import apg_settings, cem, ppo_settings
+from colift.benchmark.training import apg_settings, cem
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary
-from colift.benchmark.training.ppo_settings import CoPlaySettings, PpoSettings, SelfPlaySettings
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import Jobs
+from colift.cli.options import Device, Jobs
 from colift.cli.remedies import argument
 from colift.cli.settings import with_settings
 from colift.cli.tables.training import training_table
@@ -63,7 +62,6 @@ def add(
     meaning: str,
     total: Callable[[Any], int] = lambda settings: settings.updates,
     jax: bool = True,
-    jobs: bool = True,
     **words: Mapping[str, str],
 ) -> None:
     """Add a trainer as a command.
@@ -78,21 +76,23 @@ def add(
         What is an option, as in :func:`.with_settings`.
     total
         Returns the length of the bar of progress, from the settings.
-    jax, jobs
-        Whether it needs JAX, and whether it plays lifts in worker processes.
+    jax
+        Whether it computes with JAX, on one device; else it plays lifts in worker processes.
     """
 
-    def command(*, out: Out, seeds: Seeds = 1, settings: Any, jobs: Jobs = None) -> None:
-        if jax:
-            require_jax()
+    def train(out: Path, seeds: int, settings: Any, jobs: int | None) -> None:
         module, _, function = place.partition(":")
-        train = getattr(import_module(f"colift.benchmark.training.{module}"), function)
-        train_all(name, settings, seeds, out, total(settings), jobs, train)
+        trainer = getattr(import_module(f"colift.benchmark.training.{module}"), function)
+        train_all(name, settings, seeds, out, total(settings), jobs, trainer)
 
-    def alone(*, out: Out, seeds: Seeds = 1, settings: Any) -> None:
-        command(out=out, seeds=seeds, settings=settings, jobs=1)
+    def on_device(*, out: Out, seeds: Seeds = 1, settings: Any, device: Device = None) -> None:
+        require_jax(device)
+        train(out, seeds, settings, 1)
 
-    chosen = command if jobs else alone
+    def in_workers(*, out: Out, seeds: Seeds = 1, settings: Any, jobs: Jobs = None) -> None:
+        train(out, seeds, settings, jobs)
+
+    chosen = on_device if jax else in_workers
     chosen.__doc__ = meaning
     app.command(name)(with_settings(chosen, settings, *options, **words))
 
@@ -117,39 +117,7 @@ add(
     *ApgSettings.__dataclass_fields__,
     meaning="Train a recurrent network by gradients through whole lifts of the twin (extra: "
     "train).",
-    jobs=False,
     task={"help": "Task: level, or one that is stated by rules."},
-)
-add(
-    ppo_settings.NAME,
-    "ppo:train_ppo",
-    PpoSettings,
-    "updates",
-    "pool",
-    "lifts",
-    meaning="Train a network by proximal policy optimisation, on the twin (extra: train).",
-)
-add(
-    ppo_settings.SELF_PLAY,
-    "self_play:train_self_play",
-    SelfPlaySettings,
-    "updates",
-    "lifts",
-    "haste",
-    meaning="Train by PPO with a person who also learns, without colift's behaviours (extra: "
-    "train).",
-)
-add(
-    ppo_settings.CO_PLAY,
-    "co_play:train_co_play",
-    CoPlaySettings,
-    "population",
-    "updates",
-    "lifts",
-    "haste",
-    meaning="Train with a population of people who learned by self-play (extra: train).",
-    total=lambda settings: (settings.population + 1) * settings.updates,
-    updates={"help": "Updates per training, the last one included."},
 )
 
 

@@ -37,6 +37,9 @@ exclude_patterns = ["extensions", "generated/gallery/*.ipynb", "generated/galler
 nitpicky = True
 smartquotes = False  # It would make a dash of the two hyphens of an option.
 nitpick_ignore_regex = [
+    # The arrays behind a state of the twin have no page.
+    ("py:class", r"colift\.benchmark\.twin\..*"),
+    ("py:class", r"colift\.benchmark\.twin_environment\.(running|pool)\..*"),
     ("py:.*", "(?!colift).*"),  # Other projects' sites cannot be asked offline.
     ("py:(class|obj)", r"colift\.agents\.rules\.functions\..*"),  # Types of numbers and arrays.
 ]

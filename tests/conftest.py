@@ -39,7 +39,6 @@ LONGEST = (
     "cli/test_nao_vanishing.py",
     "cli/test_nao_stops.py",
     "cli/test_nao.py",
-    "benchmark/training/test_ppo.py",
     "benchmark/execution/test_kernels.py",
     "leaderboard/pages/test_accessibility.py",
     "cli/test_submit.py",

@@ -31,7 +31,7 @@ _KEPT: Final = math.exp(-FRAME / LEAK)
 # A Gaussian kernel of width s gives noise with the autocorrelation exp(-t^2 / (4 s^2)).
 _WIDTH: Final = 0.5 * NOISE_CORRELATION / FRAME
 _BELL: Final = each(math.exp, -0.5 * (np.arange(-3 * _WIDTH, 3 * _WIDTH + 1) / _WIDTH) ** 2)
-_KERNEL: Final = _BELL / math.sqrt(dot(_BELL, _BELL))
+KERNEL: Final = _BELL / math.sqrt(dot(_BELL, _BELL))
 
 
 class HandMemory(NamedTuple, Generic[N]):
@@ -118,7 +118,7 @@ class NoiseStream:
         self._subject = subject
         self._rng = np.random.default_rng(seed)
         self._phase = 2.0 * np.pi * float(self._rng.random())
-        self._white = self._rng.standard_normal(len(_KERNEL) - 1)
+        self._white = self._rng.standard_normal(len(KERNEL) - 1)
         self._gain: list[float] = []
         self._tremor: list[float] = []
 
@@ -132,7 +132,7 @@ class NoiseStream:
         """Draw the noise of the next ``BLOCK`` frames."""
         white = np.concatenate((self._white, self._rng.standard_normal(BLOCK)))
         self._white = white[BLOCK:]
-        smooth = dot(np.lib.stride_tricks.sliding_window_view(white, len(_KERNEL)), _KERNEL)
+        smooth = dot(np.lib.stride_tricks.sliding_window_view(white, len(KERNEL)), KERNEL)
         first = len(self._tremor)
         omega = 2.0 * np.pi * self._subject.tremor_frequency
         time = FRAME * np.arange(first, first + BLOCK)

@@ -1,9 +1,11 @@
 """Hashes of code: the behaviour of definitions and of all that they use, whatever the names."""
 
+import ast
 import builtins
 import functools
 import gc
 import hashlib
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from importlib import import_module
@@ -72,14 +74,17 @@ class Code:
         without
             Values of definitions that are not followed, since they are stated elsewhere.
         values
-            Whether constants and attributes of classes count as they are now, too. All modules
-            with definitions that are reached must have been imported.
+            Whether constants and attributes of classes count as they are now, too. Modules of
+            colift that have some and that only functions import are imported.
         """
         key = roots, tuple(map(id, without))
         if key not in self._walks:
             self._walks[key] = self._walk(roots, without)
         text, used = self._walks[key]
         valued = [each for each in used if values and each in self._valued]
+        for module in {each.module for each in valued} - sys.modules.keys():
+            if module.startswith(f"{COLIFT}."):
+                import_module(module)
         texts = [text, *(value_text(each.value()) for each in valued)]
         return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:16]
 
@@ -153,9 +158,8 @@ class Code:
             pieces.append(data_hash(module, statements, everything=not own))
         # What our own calls return, such as a file's number, may differ between processes.
         of_call = own and "Call" in {str(each)[:4] for each in pieces}
-        if reference.name not in module.rebound and (
-            not of_call or isinstance(reference.value(), type)
-        ):
+        is_class = any(isinstance(each.node, ast.ClassDef) for each in statements)
+        if reference.name not in module.rebound and (not of_call or is_class):
             self._valued.add(reference)
         return pieces
 

@@ -1,6 +1,7 @@
 """The environment: one lift as a PettingZoo parallel game, an AEC game or a Gymnasium task."""
 
 from colift.benchmark.environment.aec import env, raw_env
+from colift.benchmark.environment.moment import Moment
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.environment.single import RobotEnv
 from colift.benchmark.environment.state import TrueState
@@ -15,6 +16,7 @@ from colift.benchmark.environment.wrappers import (
 __all__ = [
     "History",
     "HoldingPace",
+    "Moment",
     "ParallelLift",
     "RobotEnv",
     "Scaled",

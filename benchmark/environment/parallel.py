@@ -2,11 +2,14 @@
 
 from copy import deepcopy
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from colift.agents.actions import checked_action
 from colift.agents.agent import Action, Agent, Observation
+from colift.base.engine import require_engine
 from colift.benchmark.environment.drawing import Drawing, make_drawing
+from colift.benchmark.environment.moment import Moment, bring_to, check_same_settings
 from colift.benchmark.environment.rewards import SCORE, TASK_REWARD, check_reward, score_rewards
 from colift.benchmark.environment.settings import (
     HUMAN,
@@ -20,13 +23,16 @@ from colift.benchmark.environment.settings import (
 from colift.benchmark.environment.state import state_space, true_state
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from colift.benchmark.rendering.scene import Scene, check_render_mode
+from colift.benchmark.rendering.modes import check_render_mode
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.benchmark.suites.catalogue import TASK, make_scenario
 from colift.benchmark.tasks.worlds import lift_after
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 from pettingzoo import ParallelEnv
+
+if TYPE_CHECKING:
+    from colift.benchmark.rendering.scene import Scene
 
 
 class ParallelLift(ParallelEnv[str, Observation, Action]):
@@ -102,6 +108,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         reward: str = TASK_REWARD,
         drawing: Drawing | None = None,
     ) -> None:
+        require_engine()
         check_render_mode(render_mode)
         check_reward(reward, scenario.task)
         self.render_mode = render_mode
@@ -115,20 +122,28 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         self.action_spaces = {agent: action_space(self.lift, agent) for agent in agents}
         self.state_space = state_space(*(self.observation_spaces[agent] for agent in agents))
         self._seen: dict[str, Observation] = {}
+        self._actions: list[tuple[list[float], list[float]]] = []
+        self._human: Agent | None = None
+        """The human of a restored moment, who has kept up, until the next step."""
         self._rng = np.random.default_rng()
         self._scene: Scene | None = None
         self._begun = self._closed = False
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Return the parts of a copy: a new environment that no episode has begun in.
+        """Return the parts of a copy, which goes on with the episode; see :meth:`restore`.
 
         A reset of it without a seed begins the episode that the original's would. Copies of an
         environment that was never reset have different episodes, as those of vector environments
         need. Copies share neither a world nor a generator.
         """
         make = partial(type(self), reward=self._reward, drawing=self._drawing)
-        known = {"_rng": deepcopy(self._rng)} if self._begun else None
+        known = (deepcopy(self._rng), self.save()) if self._begun else None
         return make, (self.lift.scenario, self.render_mode), known
+
+    def __setstate__(self, known: tuple[np.random.Generator, Moment]) -> None:
+        """Go on as the original of this copy."""
+        self._rng, moment = known
+        self.restore(moment)
 
     def observation_space(self, agent: str) -> Box:
         """Return the observation space of ``agent``."""
@@ -163,16 +178,48 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             self._rng = np.random.default_rng(seed)
         else:
             seed = int(self._rng.integers(2**62))
-        info: dict[str, Any] = {}
+        scenario = self.lift.scenario
         if self._drawing is not None:
             scenario, seed = self._drawing.lift(seed)
-            self.lift = lift_after(self.lift, scenario)
-            info = {"scenario": scenario.name, "seed": seed}
-        self.lift.reset(seed)
+        return self.restore(Moment(scenario, seed, ()))
+
+    def save(self) -> Moment:
+        """Return the present moment of the episode, for :meth:`restore`.
+
+        Raises
+        ------
+        RuntimeError
+            If no episode has begun.
+        """
+        self._check_begun()
+        return Moment(self.lift.scenario, self.lift.seed, tuple(self._actions))
+
+    def restore(self, moment: Moment) -> tuple[dict[str, Observation], dict[str, dict[str, Any]]]:
+        """Return to a moment, and return the observations and the ``infos`` of its :meth:`reset`.
+
+        Its actions are played again, so that all is as it was, bit for bit; this takes about as
+        long as it took to get there. The moment may be of another environment with the same
+        settings, or of another process. The generator of later episodes stays as it is.
+
+        Raises
+        ------
+        InputError
+            If the settings are others.
+        RuntimeError
+            If the environment is closed.
+        """
+        self._check_open()
+        check_same_settings(moment, self.lift.scenario)
+        if moment.scenario is not self.lift.scenario:
+            self.lift = lift_after(self.lift, moment.scenario)
+        self._human = bring_to(self.lift, moment)
+        self._actions = list(moment.actions)
         self._begun = True
-        self.agents = list(self.possible_agents)
+        self.agents = [] if self.lift.done else list(self.possible_agents)
         self._render_in_window()
-        return self._observations(), {agent: dict(info) for agent in self.agents}
+        drawn = self._drawing is not None
+        info = {"scenario": moment.scenario.name, "seed": moment.seed} if drawn else {}
+        return self._observations(), {agent: dict(info) for agent in self.possible_agents}
 
     def step(
         self, actions: dict[str, Action]
@@ -202,7 +249,11 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         if unknown:
             raise ValueError(f"actions must be of {' and '.join(self.agents)}, got {unknown}")
         lift = self.lift
-        lift.step(actions[HUMAN], actions[ROBOT])
+        human = checked_action(HUMAN, actions[HUMAN], lift.frames_per_step)
+        robot = checked_action(ROBOT, actions[ROBOT], lift.partner_size)
+        lift.carry_out(human, robot)
+        self._actions.append((human, robot))
+        self._human = None
         rewards = score_rewards(lift) if self._reward == SCORE else lift.task.rewards(lift)
         dropped, truncated = lift.dropped is not None, lift.truncated
         agents = self.agents
@@ -234,7 +285,7 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
         return np.concatenate([true_state(self.lift), *(self._seen.values())])
 
     def scripted_human(self) -> Agent:
-        """Return the agent that carries out the current episode's private plan.
+        """Return the agent that carries out the current episode's private plan, from now on.
 
         Raises
         ------
@@ -242,13 +293,18 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             If no episode has begun.
         """
         self._check_begun()
-        return self.lift.scripted_human()
+        human, self._human = self._human, None
+        if self.lift.frame == 0:
+            return self.lift.scripted_human()
+        return human or bring_to(self.lift, self.save())
 
     def render(self) -> NDArray[np.uint8] | None:
         """Return a picture of the lift (``"rgb_array"``), or draw it in the window."""
         if self.render_mode is None:
             return None
         if self._scene is None:
+            from colift.benchmark.rendering.scene import Scene
+
             window = self.render_mode == "human"
             self._scene = Scene(self.lift.scenario.partner, window=window)
         world = self.lift.world

@@ -6,6 +6,7 @@ import gymnasium
 import numpy as np
 from colift.agents.agent import Action, Agent, Observation
 from colift.base.errors import InputError
+from colift.benchmark.environment.moment import Moment
 from colift.benchmark.environment.parallel import parallel_env
 from colift.benchmark.environment.settings import HUMAN, ROBOT, SETTINGS, check_options
 from colift.benchmark.episode.seat import HUMANS
@@ -64,10 +65,34 @@ class RobotEnv(gymnasium.Env[Observation, Action]):
         """
         check_options(options, others=False)
         super().reset(seed=seed)
-        observations, infos = self._env.reset(seed=seed)
+        return self._begin(*self._env.reset(seed=seed))
+
+    def _begin(
+        self, observations: dict[str, Observation], infos: dict[str, dict[str, Any]]
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Take the human of the episode, and return the robot's part."""
         self._human = self._env.scripted_human()
         self._human_observation = observations[HUMAN]
         return observations[ROBOT], infos[ROBOT]
+
+    def save(self) -> Moment:
+        """Return the present moment of the episode; see :meth:`.ParallelLift.save`."""
+        return self._env.save()
+
+    def restore(self, moment: Moment) -> tuple[Observation, dict[str, Any]]:
+        """Return to a moment, with its human; see :meth:`.ParallelLift.restore`."""
+        return self._begin(*self._env.restore(moment))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy has; its human is made anew."""
+        return {**self.__dict__, "_human": self._human is not None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Go on as the original of this copy."""
+        begun = state.pop("_human")
+        self.__dict__.update(state, _human=None)
+        if begun:
+            self.restore(self.save())
 
     def step(self, action: Action) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Advance by one control period, see :meth:`.ParallelLift.step`.

@@ -6,8 +6,8 @@ from typing import NamedTuple
 from colift.benchmark.episode.conditions import Drawn
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import body_parameters
-from colift.benchmark.world import BodyParameters, FarEnd
-from colift.benchmark.world.interface import Adjustable
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import Adjustable, FarEnd
 from colift.benchmark.world.table import TABLE, Table
 
 

@@ -13,7 +13,8 @@ from colift.benchmark.episode.bodies import Bodies
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.task import Task
-from colift.benchmark.world import BodyParameters, FarEnd, World
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd, World
 from colift.benchmark.world.table import Table
 
 

@@ -15,7 +15,8 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.seat import within_range
 from colift.benchmark.episode.seeding import derive_seed
 from colift.benchmark.episode.sensing import drawn_errors, sight, touch
-from colift.benchmark.world import HISTORY_FRAMES, BodyParameters, FarEnd, Intended, World
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import HISTORY_FRAMES, FarEnd, Intended, World
 from colift.benchmark.world.table import Table
 from numpy.typing import ArrayLike, NDArray
 

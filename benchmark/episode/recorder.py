@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 
 HASH_BYTES = 16
 """Length of a step's hash: 128 bits."""

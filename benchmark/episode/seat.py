@@ -14,7 +14,9 @@ from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
 from colift.benchmark.episode.task import Playing, Task
 from colift.benchmark.robots.robot import Robot, make_robot, robot_names
-from colift.benchmark.world import BodyParameters, FarEnd, HumanFarEnd
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd
+from colift.benchmark.world.second_human import HumanFarEnd
 from numpy.typing import ArrayLike, NDArray
 
 REFERENCE_RANGE: Final = (-0.2, 0.5)

@@ -11,7 +11,9 @@ from colift.agents.rules import ArrayFunctions, Drawn, N, View
 from colift.agents.senses import Sense
 from colift.benchmark.episode.metric import Metrics, Scores
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.world import BodyParameters, FarEnd, Physics, World
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd, World
+from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 

@@ -1,10 +1,10 @@
-"""Units of work, a few seeds of one scenario each, played alone or on any executor."""
+"""Units of work, a few lifts each, played alone or on any executor."""
 
 import contextlib
 import dataclasses
 import itertools
 import time
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 from typing import Final
@@ -19,29 +19,28 @@ from colift.benchmark.episode.kept_world import drop_kept_world
 from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.hidden import keyed
-from colift.benchmark.suites.suite import Suite
+from colift.benchmark.suites.suite import Due, Suite, alike
 from colift.benchmark.tasks.worlds import played_lift
 
-SEEDS_PER_BATCH: Final = 5
-"""Seeds of one scenario that a worker plays at a time: few enough for visible progress."""
+LIFTS_PER_BATCH: Final = 5
+"""Lifts that a worker plays at a time: few enough for visible progress."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Batch:
-    """A worker's unit of work: some of a suite's episodes, all of one scenario."""
+    """A worker's unit of work: some of a suite's lifts."""
 
     policy: AgentSpec
-    scenario: Scenario
-    seeds: tuple[int, ...]
-    indices: tuple[int, ...]
-    """The place of each episode in the suite, counted from 0."""
+    lifts: tuple[Due, ...]
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
 
     def play(self) -> Iterator[tuple[int, Episode]]:
-        """Yield the place and the episode of each seed; see :func:`play`."""
-        episodes = play(self.policy, self.scenario, self.seeds, self.channel)
-        return zip(self.indices, episodes, strict=True)
+        """Yield the place and the episode of each lift; see :func:`play`."""
+        for scenario, some in alike(self.lifts):
+            seeds = tuple(due.seed for due in some)
+            episodes = play(self.policy, scenario, seeds, self.channel)
+            yield from zip([due.place for due in some], episodes, strict=True)
 
     def __call__(self) -> list[tuple[int, Episode]]:
         """Return all of :meth:`play`; worker processes run this."""
@@ -49,12 +48,8 @@ class Batch:
 
     def without(self, done: Container[int]) -> "Batch":
         """Return the batch without the places in ``done``."""
-        left = [i for i, index in enumerate(self.indices) if index not in done]
-        return dataclasses.replace(
-            self,
-            seeds=tuple(self.seeds[i] for i in left),
-            indices=tuple(self.indices[i] for i in left),
-        )
+        left = tuple(due for due in self.lifts if due.place not in done)
+        return dataclasses.replace(self, lifts=left)
 
 
 def play(
@@ -127,13 +122,11 @@ def batches(
     channel: Channel | None = None,
 ) -> Iterator[Batch]:
     """Yield the rest of a suite: all episodes but those with a place in ``done``."""
-    size = len(suite.seeds)
-    for row in range(len(suite.scenarios)):
-        for first in range(0, size, SEEDS_PER_BATCH):
-            columns = range(first, min(first + SEEDS_PER_BATCH, size))
-            batch = _batch(policy, suite, row, columns, channel).without(done)
-            if batch.indices:
-                yield batch
+    for first in range(0, suite.size, LIFTS_PER_BATCH):
+        places = range(first, min(first + LIFTS_PER_BATCH, suite.size))
+        lifts = tuple(suite.at(index) for index in places if index not in done)
+        if lifts:
+            yield Batch(policy=policy, lifts=lifts, channel=channel)
 
 
 def shuffled_batches(
@@ -153,27 +146,8 @@ def shuffled_batches(
     def lot(index: int) -> bytes:
         return keyed(secret, *labels, index)
 
-    size = len(suite.seeds)
-    indices = sorted((index for index in range(suite.size) if index not in done), key=lot)
-    for index in indices:
-        yield _batch(policy, suite, index // size, (index % size,), channel)
-
-
-def _batch(
-    policy: AgentSpec,
-    suite: Suite,
-    row: int,
-    columns: Sequence[int],
-    channel: Channel | None = None,
-) -> Batch:
-    """Return some episodes of a scenario as a batch."""
-    return Batch(
-        policy=policy,
-        scenario=suite.scenarios[row],
-        seeds=tuple(suite.seeds[column] for column in columns),
-        indices=tuple(row * len(suite.seeds) + column for column in columns),
-        channel=channel,
-    )
+    for index in sorted((index for index in range(suite.size) if index not in done), key=lot):
+        yield Batch(policy=policy, lifts=(suite.at(index),), channel=channel)
 
 
 ATTEMPTS: Final = 3
@@ -233,7 +207,7 @@ def _alone(batches: Iterable[Batch], faults: Faults) -> Iterator[tuple[int, Epis
         for batch in batches:
             done: set[int] = set()
             attempt = 1
-            while len(done) < len(batch.indices):
+            while len(done) < len(batch.lifts):
                 try:
                     for index, episode in batch.without(done).play():
                         done.add(index)

@@ -5,6 +5,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 
 from colift.agents.spec import AgentSpec
+from colift.base.engine import require_engine
 from colift.benchmark.channels import Channel
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.batches import Faults, batches, run_batches, shuffled_batches
@@ -120,12 +121,14 @@ def run_suite(
     Raises
     ------
     InputError
-        If the policy cannot be loaded, or a channel would lead to a second person.
+        If the policy cannot be loaded, a channel would lead to a second person, or there is no
+        engine.
     EvaluatorFault
         If the machine fails repeatedly; the finished episodes went to ``shelf`` and ``keep``.
     InterruptedRunError
         After Ctrl-C, even during the last episode; with the episodes that were finished by then.
     """
+    require_engine()
     policy = placed(policy, executor)
     policy.check()
     found, shelf = dict(done or {}), shelf or Spool()

@@ -9,22 +9,21 @@ from colift.base.errors import InputError
 from colift.benchmark.bundle import Bundle, one_line
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.replay import ReplayError, replay
-from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.provenance import POLICIES_ONLY, fingerprint
 from colift.benchmark.export.lifts import ExportedLift
 from colift.benchmark.export.observing import ObservedLift
-from colift.benchmark.suites.suite import Suite
+from colift.benchmark.suites.suite import Due, Suite, alike
 from colift.benchmark.verification.deviation import first_difference
 from colift.benchmark.verification.episode_check import episode_checks
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Proof:
-    """Some lifts of one scenario, to be replayed."""
+    """Some lifts of a suite, to be replayed."""
 
-    scenario: Scenario
-    seeds: tuple[int, ...]
+    lifts: tuple[Due, ...]
     episodes: tuple[Episode, ...]
+    """The claimed episodes of these lifts."""
     policy: str
     """Name of the bundle's policy."""
     both: bool
@@ -38,9 +37,11 @@ class Proof:
         InputError
             If a replay differs from the bundle in a bit.
         """
-        with closing(ObservedLift(self.scenario, both=self.both)) as lift:
-            pairs = zip(self.seeds, self.episodes, strict=True)
-            return [self._proved(lift, seed, claim) for seed, claim in pairs]
+        claims, proved = iter(self.episodes), []
+        for scenario, some in alike(self.lifts):
+            with closing(ObservedLift(scenario, both=self.both)) as lift:
+                proved += [self._proved(lift, due.seed, next(claims)) for due in some]
+        return proved
 
     def _proved(self, lift: ObservedLift, seed: int, claim: Episode) -> ExportedLift:
         logged = claim.trace
@@ -103,8 +104,7 @@ def proved_lifts(
         )
     proofs = [
         Proof(
-            scenario=check.scenario,
-            seeds=check.seeds,
+            lifts=check.lifts,
             episodes=check.episodes,
             policy=one_line(bundle.results["policy"]["name"]),
             both=both,

@@ -8,7 +8,9 @@ from colift.agents.agent import FRAME
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.hardware.joint_arms import JointArms, JointWorld
-from colift.benchmark.world import SERVO, BodyParameters, FarEnd, Servo
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd
+from colift.benchmark.world.servo import SERVO, Servo
 from colift.benchmark.world.table import Table
 
 

@@ -5,10 +5,12 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.benchmark.world import BodyParameters, BulletWorld, NaoFarEnd
+from colift.benchmark.world.bullet_world import BulletWorld
 from colift.benchmark.world.engine import BulletEngine
+from colift.benchmark.world.human_body import BodyParameters
 from colift.benchmark.world.interface import Engine, Intended
 from colift.benchmark.world.nao_arms import NaoArms
+from colift.benchmark.world.nao_end import NaoFarEnd
 from colift.benchmark.world.servo import Servo
 from colift.benchmark.world.table import WEIGHT_SHARE
 from colift.robots.nao.kinematics import (

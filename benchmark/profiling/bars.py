@@ -47,11 +47,13 @@ FIGURES: Final[Mapping[str, Figure]] = {
     ),
     "verify_ratio": Figure(meaning="throughput of verification over that of the run", least=1),
     "twin_mean_error": Figure(
-        meaning="largest error of a policy's mean RMSE in the twin", most=0.003
+        meaning="largest error of a policy's mean RMSE in the twin", most=0.001
     ),
-    "twin_worst_error": Figure(meaning="largest error of a lift's RMSE in the twin", most=0.015),
+    "twin_worst_error": Figure(meaning="largest error of a lift's RMSE in the twin", most=0.01),
     "twin_speed_ratio": Figure(meaning="control steps/s of the twin over the engine's", least=500),
     "twin_gradient_ratio": Figure(meaning="the same of lifts with their gradient", least=50),
+    "twin_environment_ratio": Figure(meaning="the same of the environment's steps", least=200),
+    "twin_bulk_ratio": Figure(meaning="lifts drawn in bulk over those drawn one by one", least=15),
 }
 
 

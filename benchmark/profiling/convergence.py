@@ -18,7 +18,7 @@ from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.pool import default_jobs, process_pool
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.suite import Suite, make_suite
-from colift.benchmark.world import PHYSICS, Physics
+from colift.benchmark.world.physics import PHYSICS, Physics
 from numpy.typing import NDArray
 
 FINE: Final = Physics(step=0.0005)

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from colift.base.errors import InputError
 from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.rendering.caption import letters
 from colift.benchmark.rendering.mannequin import Mannequin
@@ -27,7 +26,6 @@ PEDESTAL: Final = 0.50
 """Height of the NAO's pedestal [m], such that its table is at a person's hands."""
 
 FLOOR: Final = -TORSO_HEIGHT - PEDESTAL
-RENDER_MODES: Final = (None, "human", "rgb_array")
 
 WOOD: Final = (0.80, 0.62, 0.42, 1.0)
 MEANT: Final = (0.25, 0.55, 0.30, 1.0)
@@ -51,18 +49,6 @@ HALF_HEIGHT: Final = 0.93
 
 SMOOTHING: Final = 2
 """Pixels drawn for one pixel seen, in each direction: the renderer leaves edges jagged."""
-
-
-def check_render_mode(mode: str | None) -> None:
-    """Refuse an unknown render mode.
-
-    Raises
-    ------
-    InputError
-        If the mode is not one of ``RENDER_MODES``.
-    """
-    if mode not in RENDER_MODES:
-        raise InputError(f"render_mode must be None, 'human' or 'rgb_array', got {mode!r}")
 
 
 def _display_there() -> bool:

@@ -8,8 +8,10 @@ import numpy as np
 from colift.agents.agent import FRAME
 from colift.benchmark.robots.model import load_model
 from colift.benchmark.robots.robot import Robot, robot_fault
-from colift.benchmark.world import BodyParameters, BulletWorld, since_reset
 from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import since_reset
 from numpy.typing import NDArray
 
 SAG: Final = 0.02

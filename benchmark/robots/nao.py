@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from colift.agents.actions import HAND_SPEED
-from colift.benchmark.world.nao_arms import NaoFarEnd
+from colift.benchmark.world.nao_end import NaoFarEnd
 from colift.robots.nao import kinematics
 from colift.robots.nao.facts import TORSO_HEIGHT
 from colift.robots.nao.urdf import nao_urdf_path

@@ -7,7 +7,7 @@ from typing import Final, Protocol
 
 from colift.base.plugins import make_registered, object_fault
 from colift.base.registry import ROBOTS, entries
-from colift.benchmark.world import FarEnd
+from colift.benchmark.world.interface import FarEnd
 
 DEFAULT_ROBOT: Final = "nao"
 """The default robot, that of the paper."""

@@ -2,12 +2,13 @@
 
 import dataclasses
 import hashlib
+import itertools
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 from colift.agents.humans import Recorded, load_recordings
 from colift.base.errors import InputError
@@ -23,6 +24,22 @@ from colift.benchmark.suites.rules import scenarios_fault, seeds_fault
 
 LONGEST_SUITE_NAME: Final = 200
 """Longest name of a suite [characters]."""
+
+
+class Due(NamedTuple):
+    """A lift of a suite, which is to be played."""
+
+    place: int
+    """Its place in the suite, counted from 0."""
+    scenario: Scenario
+    seed: int
+
+
+def alike(lifts: Iterable[Due]) -> Iterator[tuple[Scenario, list[Due]]]:
+    """Yield successive lifts of one scenario together, with the scenario."""
+    for _, some in itertools.groupby(lifts, key=lambda due: id(due.scenario)):
+        found = list(some)
+        yield found[0].scenario, found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,6 +67,11 @@ class Suite:
     def size(self) -> int:
         """Number of episodes."""
         return len(self.scenarios) * len(self.seeds)
+
+    def at(self, place: int) -> Due:
+        """Return the lift at a place: scenario by scenario, each with all seeds."""
+        row, column = divmod(place, len(self.seeds))
+        return Due(place, self.scenarios[row], self.seeds[column])
 
     @property
     def hand_speed(self) -> float:

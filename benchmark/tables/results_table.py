@@ -46,6 +46,9 @@ QUARTILES: Final = "quartiles"
 SPREAD: Final = "quartiles: of the means of each person."
 """Meaning of the next column."""
 
+ALONE: Final = "All lifts are with one person, so that there is no interval."
+"""Said instead of the quartiles if there are none."""
+
 
 def results_table(content: Results, metrics: Metrics) -> Table:
     """Return the table of a result: one row per behaviour, and the mean over all."""
@@ -53,19 +56,22 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     shown = [each for each in metrics.values() if each.shown != "file" and each.name != LEADING]
     behaviours = dict.fromkeys(each.behaviour for each in strata)
     people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
+    several = spread_over_people(strata).people > 1
+    quartiles = (QUARTILES,) if several else ()
     return table(
         f"{content.policy} on {content.suite}{_over(content)}",
-        ("human", "RMSE mm", people, QUARTILES, *(metric.heading for metric in shown)),
+        ("human", "RMSE mm", people, *quartiles, *(metric.heading for metric in shown)),
         [
             *(
-                (name, *_row([each for each in strata if each.behaviour == name], shown))
+                (name, *_row([each for each in strata if each.behaviour == name], shown, several))
                 for name in behaviours
             ),
             None,
-            styled(("all", *_row(strata, shown)), "bold"),
+            styled(("all", *_row(strata, shown, several)), "bold"),
         ],
         caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
-        f"suite digest {content.suite_digest}. {PEOPLE} {SPREAD} {notes(shown)}",
+        f"suite digest {content.suite_digest}. {PEOPLE} {SPREAD if several else ALONE} "
+        f"{notes(shown)}",
     )
 
 
@@ -107,13 +113,17 @@ def _over(content: Results) -> str:
     return "" if content.channel is None else f", over the channel {channel_name(content.channel)}"
 
 
-def _row(strata: Sequence[StratumScore], shown: Sequence[Metric]) -> list[str]:
-    """Return the cells of a row: the means over the episodes of some strata."""
+def _row(strata: Sequence[StratumScore], shown: Sequence[Metric], several: bool) -> list[str]:
+    """Return the cells of a row: the means over the episodes of some strata.
+
+    ``several``: whether there are quartiles, of several people.
+    """
     errors = (mean_of_strata(strata).mean, human_human_mean(strata))
     means = (metric.text(mean_of_strata(strata, metric.name).mean) for metric in shown)
     spread = spread_over_people(strata)
-    quartiles = f"{spread.lower:.1f} to {spread.upper:.1f}" if spread.people > 1 else ""
-    return [*(optional_number(error, ".1f") for error in errors), quartiles, *means]
+    between = f"{spread.lower:.1f} to {spread.upper:.1f}" if spread.people > 1 else ""
+    quartiles = (between,) if several else ()
+    return [*(optional_number(error, ".1f") for error in errors), *quartiles, *means]
 
 
 def timing_table(report: dict[str, Any]) -> Table:

@@ -12,7 +12,10 @@ from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.episode.task import Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.level.task import Level
-from colift.benchmark.world import Ball, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.world.ball import Ball
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd, World
+from colift.benchmark.world.physics import Physics
 from colift.benchmark.world.table import TABLE, Table
 from numpy.typing import NDArray
 
@@ -84,8 +87,11 @@ class Touch(Level):
         table: Table = TABLE,
         *,
         physics: Physics | None = None,
-    ) -> BulletWorld:
+    ) -> World:
         """Return a world with torques at both grips, and with the ball."""
+        # The engine is imported where it is used: rules and twin do without.
+        from colift.benchmark.world.bullet_world import BulletWorld
+
         return BulletWorld(
             human,
             far_end,

@@ -18,7 +18,7 @@ EVERY: Final = 100
 """Fewest updates between two points of the curve."""
 
 POINTS: Final = 20
-"""Most points of a curve: each takes forty lifts in the engine."""
+"""Most points of a curve."""
 
 
 def train_apg(
@@ -47,7 +47,8 @@ def train_apg(
         learner = _unpacked(learner, state)
         progress(learner.update)
     start = time.perf_counter() - course.seconds
-    pool = lesson.draw(settings)
+    pool, validation = lesson.draw(settings), lesson.validation()
+    errors = jax.jit(lambda network: lesson.errors(network, validation))
     every = max(EVERY, settings.updates // POINTS)
     steps_of_update = settings.batch * lesson.steps(pool)
     for update in updates(settings, course.seed, learner, pool, lesson):
@@ -55,7 +56,7 @@ def train_apg(
         check_finite(f"the RMSE of update {learner.update}", np.array(update.rmse_mm))
         progress(1)
         if learner.update % every == 0 or learner.update == settings.updates:
-            error = lesson.error(lesson.weights(learner.network))
+            error = float(errors(learner.network).mean())
             steps = round(learner.update * steps_of_update)
             point = Point(steps, time.perf_counter() - start, error)
             course.keep(point, _packed(learner))

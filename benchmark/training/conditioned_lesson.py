@@ -21,16 +21,13 @@ from colift.benchmark.tasks.robust.telling import Telling, is_conditioned
 from colift.benchmark.tasks.robust.unseen import Unseen
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, first_network
+from colift.benchmark.training.sensing import with_own_errors
 from colift.benchmark.training.validation import learning_seeds
-from colift.benchmark.twin.conditioned_lifts import (
-    ConditionedLifts,
-    DrawnConditioned,
-    draw_conditioned,
-    stack_conditioned,
-)
-from colift.benchmark.twin.conditioned_twin import conditioned_rmse_mm
-from colift.benchmark.twin.lifts import some
-from colift.benchmark.twin.rollout import JAX, Policy
+from colift.benchmark.twin.drawing import DrawnLift, draw_lift, stack
+from colift.benchmark.twin.lifts import Lifts, some
+from colift.benchmark.twin.policy import JAX, Policy
+from colift.benchmark.twin.rollout import rollout
+from colift.benchmark.twin.task_twin import TaskTwin
 
 LONGEST: Final = 12.0
 """Time after which a lift is cut off [s]."""
@@ -42,7 +39,7 @@ OWN: Final = len(RobotObservation)
 class ConditionedPool(NamedTuple):
     """Drawn lifts, and what a network is told in them."""
 
-    lifts: ConditionedLifts
+    lifts: Lifts
     told: jax.Array
     """(s, k, n)"""
 
@@ -77,6 +74,7 @@ class ConditionedLesson:
         if not self._scenarios:
             raise InputError(f"all behaviours of {suite.name} are for tests alone")
         self.telling = Telling(behaviours=tuple(self._scenarios))
+        self.twin = TaskTwin.of(list(self._scenarios.values()))
 
     def first(self, settings: ApgSettings, seed: int) -> GatedNetwork:
         """Return a network that hardly corrects the line."""
@@ -93,10 +91,11 @@ class ConditionedLesson:
         nothing = replace(self.telling, sensor=False, person=False)
         return told_pool(self.lifts(settings, self.conditions), nothing)
 
-    def lifts(self, settings: ApgSettings, conditions: Conditions) -> list[DrawnConditioned]:
+    def lifts(self, settings: ApgSettings, conditions: Conditions) -> list[DrawnLift]:
         """Return lifts to learn from, with the suite's conditions or others."""
         seeds = learning_seeds(settings.lifts)
-        return [draw_conditioned(self.scenario(each, conditions), each, LONGEST) for each in seeds]
+        rules = self.twin.person
+        return [draw_lift(self.scenario(each, conditions), each, rules, LONGEST) for each in seeds]
 
     def loss(
         self, network: GatedNetwork, pool: ConditionedPool, settings: ApgSettings, draw: BatchDraw
@@ -106,17 +105,19 @@ class ConditionedLesson:
         chosen = jax.random.randint(keys[0], (draw.size,), 0, pool.lifts.size)
         lifts, told = some(pool.lifts, chosen), pool.told[..., chosen]
         policy, memory = told_policy(network, draw.size)
-        own = settings.encoders * jax.random.normal(keys[1], (len(lifts.gain), 2, draw.size))
-        mean = conditioned_rmse_mm(policy, memory, lifts, told, own).mean()
+        lifts = with_own_errors(lifts, settings.encoders, keys[1])
+        mean = rollout(self.twin, policy, memory, lifts, told=told).rmse_mm.mean()
         return mean, mean
 
 
-def told_pool(drawn: Sequence[DrawnConditioned], telling: Telling) -> ConditionedPool:
+def told_pool(drawn: Sequence[DrawnLift], telling: Telling) -> ConditionedPool:
     """Return drawn lifts as arrays, with what a network is told in them."""
-    lifts = stack_conditioned(drawn)
+    lifts = stack(drawn)
     told = np.zeros((len(lifts.gain), telling.size, len(drawn)), np.float32)
     for index, each in enumerate(drawn):
-        numbers = telling.numbers(each.scenario, each.conditions)
+        assert each.conditions is not None
+        # Its last row is for the time after the last step.
+        numbers = telling.numbers(each.scenario, each.conditions)[:-1]
         told[: len(numbers), :, index] = numbers
     return ConditionedPool(lifts, jnp.asarray(told))
 

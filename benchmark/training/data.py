@@ -17,7 +17,7 @@ from colift.benchmark.suites.catalogue import make_scenario, make_subject
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.labels import modes, stroke_ends
 from colift.benchmark.training.population import UNREGISTERED
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 

@@ -8,6 +8,7 @@ import jax
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.twin.lifts import Lifts
 from numpy.typing import NDArray
 
 Weights = Mapping[str, NDArray[Any]]
@@ -62,8 +63,11 @@ class PolicyLesson(GradientLesson, Protocol):
     def steps(self, pool: Any) -> float:
         """Return the mean number of control steps of these lifts."""
 
-    def error(self, weights: Weights) -> float:
-        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
+    def validation(self) -> Lifts:
+        """Return the lifts of a curve, with people who are not used for learning."""
+
+    def errors(self, network: Any, lifts: Lifts) -> jax.Array:
+        """Return the policy's RMSE in lifts of the twin (n,) [mm]."""
 
     def check(self, weights: Weights) -> object:
         """Raise an InputError if the policy could not use these weights."""

@@ -10,20 +10,23 @@ The weight is 1 except for people with wide habits (:mod:`.pool`), whose force d
 robot that learns to be gentle with people whom it cannot predict follows late.
 """
 
-from functools import partial
 from types import ModuleType
 
 import jax
 import numpy as np
 from colift.agents.control.recurrent import INPUTS, GatedNetwork, network_of
-from colift.agents.control.recurrent_controller import RecurrentController
 from colift.agents.submissions import recurrent as submission
+from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.anticipation import FIRST_SEED
 from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
-from colift.benchmark.training.pool import LearningBatch, Pool, draw_batch, draw_pool
-from colift.benchmark.training.validation import validation_error
-from colift.benchmark.twin.rollout import recurrent, rollout
+from colift.benchmark.training.pool import TWIN, LearningBatch, Pool, draw_batch, draw_pool
+from colift.benchmark.training.validation import VALIDATION_SEEDS
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.lifts import Lifts
+from colift.benchmark.twin.policy import recurrent
+from colift.benchmark.twin.rollout import rollout
 
 
 class LevelLesson:
@@ -50,9 +53,16 @@ class LevelLesson:
         batch = draw_batch(pool, settings, draw)
         return batch_loss(network, batch, settings.smoothness, settings.gentleness)
 
-    def error(self, weights: Weights) -> float:
-        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
-        return validation_error(partial(RecurrentController, self.check(weights)))
+    def validation(self) -> Lifts:
+        """Return the lifts of a curve, with people who are not used for learning."""
+        return draw_lifts(
+            [(scenario(seed, BEHAVIOURS, Timing()), seed) for seed in VALIDATION_SEEDS]
+        )
+
+    def errors(self, network: GatedNetwork, lifts: Lifts) -> jax.Array:
+        """Return the policy's RMSE in lifts (n,) [mm]."""
+        policy, memory = recurrent(network, lifts.size)
+        return rollout(TWIN, policy, memory, lifts).rmse_mm
 
     def check(self, weights: Weights) -> GatedNetwork:
         """Return the network in NumPy, in double precision."""
@@ -77,7 +87,7 @@ def batch_loss(
 ) -> tuple[jax.Array, jax.Array]:
     """Return the loss [mm] and the mean RMSE [mm] of a batch."""
     policy, memory = recurrent(network, batch.lifts.size)
-    found = rollout(policy, memory, batch.lifts, batch.variation, batch.sensing)
+    found = rollout(TWIN, policy, memory, batch.lifts)
     force = batch.common * found.force_n
     cost = found.rmse_mm + smoothness * found.bend_mm + gentleness * force
     return (batch.weight * cost).mean(), found.rmse_mm.mean()

@@ -17,11 +17,10 @@ from colift.benchmark.training.apg import updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, first_network
 from colift.benchmark.training.touch_lesson import TouchLesson
-from colift.benchmark.training.validation import VALIDATION_SEEDS
 from colift.benchmark.twin.learning_person import SENSES, LearningPerson
 from colift.benchmark.twin.people import with_quiet_wrists
-from colift.benchmark.twin.rollout import JAX
-from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
+from colift.benchmark.twin.policy import JAX
+from colift.benchmark.twin.rollout import rollout
 from numpy.typing import NDArray
 
 
@@ -52,20 +51,20 @@ class PairLesson:
         self, network: TrainedPair, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.of_robot.batch(pool, settings, draw)
-        mean = self.errors(network, self.quiet(lifts), variation).mean()
+        lifts = self.quiet(self.of_robot.batch(pool, settings, draw))
+        mean = self.errors(network, lifts).mean()
         return mean, mean
 
     def quiet(self, lifts: Any) -> Any:
         """Return lifts in which the people's wrists show no intention by themselves."""
-        return with_quiet_wrists(self.of_robot.twin.task.person, lifts)
+        return with_quiet_wrists(self.of_robot.twin.person, lifts)
 
-    def errors(self, pair: TrainedPair, lifts: Any, variation: Any = None) -> jax.Array:
+    def errors(self, pair: TrainedPair, lifts: Any) -> jax.Array:
         """Return the RMSE of lifts (n,) with a pair [mm]."""
         count = lifts.size
         policy, memory = self.of_robot.policy(pair.robot, count)
         person = learned_person(pair.person, count)
-        return self.of_robot.twin.rmse_mm(policy, memory, lifts, variation, person)
+        return rollout(self.of_robot.twin, policy, memory, lifts, person=person).rmse_mm
 
 
 def learned_person(network: GatedNetwork, count: int) -> LearningPerson:
@@ -112,8 +111,7 @@ def cross_play(
 
 def played_across(lesson: PairLesson, pairs: Sequence[TrainedPair]) -> NDArray[np.float64]:
     """Return the mean RMSE of each person (rows) with each robot (columns) of some pairs [mm]."""
-    scenarios = [(lesson.of_robot.scenario(seed), seed) for seed in VALIDATION_SEEDS]
-    lifts = lesson.quiet(stack_touch([draw_touch(*each) for each in scenarios]))
+    lifts = lesson.quiet(lesson.of_robot.validation())
     errors = jax.jit(lambda pair: lesson.errors(pair, lifts).mean())
     return np.array(
         [[float(errors(TrainedPair(two.robot, one.person))) for two in pairs] for one in pairs]

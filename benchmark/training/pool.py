@@ -15,16 +15,23 @@ from colift.agents.humans.subject import BOUNDS
 from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.seeding import derive_seed
+from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.anticipation import FIRST_SEED
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.data import Timing, scenario
 from colift.benchmark.training.lesson import BatchDraw
 from colift.benchmark.training.population import curriculum
+from colift.benchmark.training.sensing import with_losses, with_noise, with_own_errors
 from colift.benchmark.training.validation import learning_seeds
 from colift.benchmark.training.wandering import Wandering
 from colift.benchmark.twin.arm import ArmVariation
-from colift.benchmark.twin.lifts import DrawnLift, Lifts, carried_out, some, stack
-from colift.benchmark.twin.rollout import Sensing, rollout
+from colift.benchmark.twin.drawing import draw_lift, stack
+from colift.benchmark.twin.lifts import Lifts, some
+from colift.benchmark.twin.rollout import rollout
+from colift.benchmark.twin.task_twin import TaskTwin
+
+TWIN: Final = TaskTwin(LEVEL, LEVEL.person)
+"""The twin of the task ``level``."""
 
 LONGEST: Final = 12.0
 """Time after which a lift is cut off [s]: four of five end earlier."""
@@ -86,9 +93,10 @@ def draw_pool(count: int, wide: float, unsettled: int = 0, first_seed: int = FIR
     seeds = learning_seeds(count, first_seed)
     common = count - round(wide * count)
     ways = curriculum(unsettled)
-    drawn = [carried_out(scenario(seed, ways, Timing()), seed) for seed in seeds[:common]]
-    drawn += [carried_out(_wide(seed, ways), seed) for seed in seeds[common:]]
-    lifts = stack([cut(lift) for lift in drawn])
+    scenarios = [scenario(seed, ways, Timing()) for seed in seeds[:common]]
+    scenarios += [_wide(seed, ways) for seed in seeds[common:]]
+    drawn = zip(scenarios, seeds, strict=True)
+    lifts = stack([draw_lift(each, seed, longest=LONGEST) for each, seed in drawn])
     return Pool(lifts, common, _weights(lifts, common))
 
 
@@ -101,7 +109,7 @@ def _weights(lifts: Lifts, common: int) -> jax.Array:
 
     @jax.jit
     def line_mm(some_lifts: Lifts) -> jax.Array:
-        return rollout(straight_line, jnp.zeros(some_lifts.size), some_lifts).rmse_mm
+        return rollout(TWIN, straight_line, jnp.zeros(some_lifts.size), some_lifts).rmse_mm
 
     parts = np.array_split(np.arange(lifts.size), -(-lifts.size // CHUNK))
     errors = jnp.concatenate([line_mm(some(lifts, part)) for part in parts])
@@ -160,20 +168,10 @@ def _wide_person(person: Subject, rng: np.random.Generator) -> Subject:
     )
 
 
-def cut(lift: DrawnLift) -> DrawnLift:
-    """Return the first :data:`LONGEST` seconds of a lift."""
-    steps = round(LONGEST / CONTROL_PERIOD)
-    return lift._replace(
-        reference=lift.reference[:steps], target=lift.target[:steps], noise=lift.noise[:steps]
-    )
-
-
 class LearningBatch(NamedTuple):
     """Lifts to learn from, with their differences from the benchmark."""
 
     lifts: Lifts
-    variation: ArmVariation
-    sensing: Sensing
     weight: jax.Array
     """(n,) weight of each lift in the loss."""
     common: jax.Array
@@ -201,20 +199,15 @@ def draw_batch(pool: Pool, settings: ApgSettings, draw: BatchDraw) -> LearningBa
     taken = jax.random.randint(keys[0], (size - many,), 0, common)
     rest = jax.random.randint(keys[1], (many,), common, jnp.maximum(total, common + 1))
     chosen = jnp.concatenate((taken, rest))
-    lifts = some(pool.lifts, chosen)
-    variation = draw_arms(draw.varied, size, keys[2:4])
+    lifts = some(pool.lifts, chosen)._replace(arms=draw_arms(draw.varied, size, keys[2:4]))
     is_wide = (jnp.arange(size) >= size - many).astype(jnp.float32)
     low, high = (math.log(factor) for factor in NOISE)
     more = is_wide * jnp.exp(jax.random.uniform(keys[4], (size,), minval=low, maxval=high))
-    deviation = MOCAP_NOISE * jnp.sqrt(1 + more**2)
-    noise = deviation * jax.random.normal(keys[5], lifts.noise.shape)
+    lifts = with_noise(lifts, MOCAP_NOISE * jnp.sqrt(1 + more**2), keys[5])
     chance = LOST * is_wide * jax.random.uniform(keys[6], (size,))
-    lost = jax.random.uniform(keys[7], (lifts.longest(), size)) < chance
-    own = settings.encoders * jax.random.normal(keys[8], lifts.noise.shape)
+    lifts = with_losses(lifts, chance, keys[7])
     return LearningBatch(
-        lifts=lifts._replace(noise=noise),
-        variation=variation,
-        sensing=Sensing(lost.astype(jnp.float32), own),
+        lifts=with_own_errors(lifts, settings.encoders, keys[8]),
         weight=pool.weight[chosen],
         common=1.0 - is_wide,
     )

@@ -74,23 +74,47 @@ def write_policy(
         As ``check``, or if a file cannot be written.
     """
     check(weights)
-    made = course.folder / f".{course.policy.name}.partial"
+    about = {
+        "name": f"{course.identity['trainer']} seed {course.seed}",
+        "description": description,
+        "trained_on": trained_on,
+    }
+    return write_network(course.policy, weights, about, package)
+
+
+def write_network(
+    folder: Path, weights: Weights, about: Mapping[str, str], package: ModuleType = network
+) -> Path:
+    """Write a trained network as a submission, and return its folder; see :func:`write_policy`.
+
+    Parameters
+    ----------
+    folder
+        The folder, which is replaced.
+    weights
+        The weights, in the form that its policy reads.
+    about
+        Entries of the manifest.
+    package
+        The package of its ``policy.py``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be written.
+    """
+    made = folder.with_name(f".{folder.name}.partial")
     shutil.rmtree(made, ignore_errors=True)
     content = BytesIO()
     arrays: dict[str, Any] = {name: np.asarray(weights[name]) for name in sorted(weights)}
     np.savez(content, **arrays)
     try:
-        about: dict[str, Any] = {
-            "name": f"{course.identity['trainer']} seed {course.seed}",
-            "description": description,
-            "trained_on": trained_on,
-        }
         source = files(package).joinpath("policy.py").read_bytes()
         write_files(made, source, about)
         write_whole(made / WEIGHTS, content.getvalue())
-        put_in_place(made, course.policy)
+        put_in_place(made, folder)
     except OSError as error:
-        raise InputError(f"cannot write {course.policy}: {error.strerror}") from error
+        raise InputError(f"cannot write {folder}: {error.strerror}") from error
     finally:
         shutil.rmtree(made, ignore_errors=True)
-    return course.policy
+    return folder

@@ -1,6 +1,5 @@
 """The lessons of tasks with touch: the score of the task, on lifts of its twin."""
 
-from functools import partial
 from types import ModuleType
 from typing import Any
 
@@ -10,7 +9,7 @@ import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.submissions import touch as submission
 from colift.agents.tasks.touch.alone_law import law_of, ports_of
-from colift.agents.tasks.touch.touch_controller import TouchController, touch_network
+from colift.agents.tasks.touch.touch_controller import touch_network
 from colift.agents.tasks.touch.touch_law import (
     TouchMemory,
     TouchNetwork,
@@ -23,13 +22,13 @@ from colift.benchmark.tasks.touch import Touch
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
 from colift.benchmark.training.pool import draw_arms
-from colift.benchmark.training.validation import LEARNING_SEEDS, learning_seeds, task_error
-from colift.benchmark.twin.arm import ArmVariation
-from colift.benchmark.twin.lifts import some
+from colift.benchmark.training.validation import LEARNING_SEEDS, VALIDATION_SEEDS, learning_seeds
+from colift.benchmark.twin.drawing import draw_lift, draw_lifts, stack
+from colift.benchmark.twin.lifts import Lifts, shares, some
 from colift.benchmark.twin.people import with_new_manners
-from colift.benchmark.twin.rollout import JAX
+from colift.benchmark.twin.policy import JAX
+from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.touch_lifts import TouchLifts, draw_touch, stack_touch
 
 
 class TouchLesson:
@@ -49,7 +48,7 @@ class TouchLesson:
         made = make_task(task)
         if not isinstance(made, Touch):
             raise InputError(f"the task {task!r} is not stated by rules, so that it has no twin")
-        self.task, self.alone, self.twin = task, alone, TaskTwin(made)
+        self.task, self.alone, self.twin = task, alone, TaskTwin(made, made.person)
 
     def first(self, settings: ApgSettings, seed: int) -> Any:
         """Return a network that hardly departs from level."""
@@ -59,7 +58,7 @@ class TouchLesson:
     def draw(self, settings: ApgSettings) -> Any:
         """Return lifts with drawn people, the behaviours in turn."""
         seeds = learning_seeds(settings.lifts)
-        return stack_touch([draw_touch(self.scenario(seed), seed) for seed in seeds])
+        return stack([draw_lift(self.scenario(seed), seed) for seed in seeds])
 
     def scenario(self, seed: int) -> Scenario:
         """Return the lift of a seed."""
@@ -75,18 +74,15 @@ class TouchLesson:
         self, network: Any, pool: Any, settings: ApgSettings, draw: BatchDraw
     ) -> tuple[jax.Array, jax.Array]:
         """Return the loss [mm], which is the mean RMSE, and the mean RMSE [mm] of a batch."""
-        lifts, variation = self.batch(pool, settings, draw)
-        policy, memory = self.policy(network, draw.size)
-        mean = self.twin.rmse_mm(policy, memory, lifts, variation).mean()
+        mean = self.errors(network, self.batch(pool, settings, draw)).mean()
         return mean, mean
 
-    def batch(self, pool: Any, settings: ApgSettings, draw: BatchDraw) -> tuple[Any, ArmVariation]:
+    def batch(self, pool: Lifts, settings: ApgSettings, draw: BatchDraw) -> Lifts:
         """Return some of the lifts, with people and arms drawn anew."""
         keys = jax.random.split(draw.key, 4)
-        lifts: TouchLifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
-        arms = draw_arms(draw.varied, draw.size, keys[2:])
-        people = self.twin.task.person
-        return with_new_manners(people, lifts, keys[1], settings.wide), arms
+        lifts = some(pool, jax.random.randint(keys[0], (draw.size,), 0, pool.size))
+        lifts = lifts._replace(arms=draw_arms(draw.varied, draw.size, keys[2:]))
+        return with_new_manners(self.twin.person, lifts, keys[1], settings.wide)
 
     def policy(self, network: Any, count: int) -> tuple[Any, TouchMemory]:
         """Return the policy of a network, and its memory at the beginning of n lifts."""
@@ -96,13 +92,18 @@ class TouchLesson:
     def known(self) -> int:
         """Return how many numbers people know about the task."""
         seed = LEARNING_SEEDS[0]
-        lifts = stack_touch([draw_touch(self.scenario(seed), seed)])
-        return len(self.twin.known(self.twin.at_rest(1), lifts))
+        lifts = stack([draw_lift(self.scenario(seed), seed)])
+        first = jax.tree.map(lambda each: each[0], shares(lifts))
+        return len(self.twin.known(self.twin.at_rest(lifts), lifts, first))
 
-    def error(self, weights: Weights) -> float:
-        """Return the policy's mean RMSE on validation lifts in the engine [mm]."""
-        make = partial(TouchController, self.check(weights))
-        return task_error(make, self.scenario)
+    def validation(self) -> Lifts:
+        """Return the lifts of a curve, with people who are not used for learning."""
+        return draw_lifts([(self.scenario(seed), seed) for seed in VALIDATION_SEEDS])
+
+    def errors(self, network: Any, lifts: Lifts) -> jax.Array:
+        """Return the policy's RMSE in lifts (n,) [mm]."""
+        policy, memory = self.policy(network, lifts.size)
+        return rollout(self.twin, policy, memory, lifts).rmse_mm
 
     def check(self, weights: Weights) -> TouchNetwork:
         """Return the network in NumPy, in double precision."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from contextlib import closing
 from functools import partial
 from typing import Final
 
@@ -11,12 +10,10 @@ from colift.agents.agent import Agent
 from colift.base.errors import InputError
 from colift.benchmark.environment.drawing import TRAINING_SEEDS
 from colift.benchmark.episode.lift import Lift
-from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metrics import rmse_mm
-from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 from colift.benchmark.training.data import Timing, scenario
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -101,20 +98,3 @@ def validation_error(policy: MakeAgent, executor: Executor | None = None) -> flo
     """Return the mean RMSE of a policy on the validation lifts [mm]."""
     errors, _ = lift_errors([policy], VALIDATION_SEEDS, executor)
     return float(errors.mean())
-
-
-def task_error(policy: MakeAgent, make: Callable[[int], Scenario]) -> float:
-    """Return the mean score of a policy on the validation lifts [mm], in any task.
-
-    Parameters
-    ----------
-    policy
-        Makes the policy.
-    make
-        Returns the scenario of a seed.
-    """
-    errors = []
-    for seed in VALIDATION_SEEDS:
-        with closing(Lift(make(seed))) as lift:
-            errors.append(run_episode(lift, policy(), seed).scores["rmse_mm"])
-    return float(np.mean(errors))

@@ -1,7 +1,7 @@
 """Lifts of the twin with unchanged agents: policies and people as they play in the engine."""
 
 from collections.abc import Callable, Sequence
-from functools import partial
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -9,12 +9,14 @@ import numpy as np
 from colift.agents.agent import FRAME, HISTORY, Agent, HumanObservation
 from colift.agents.humans import SecondPerson
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.seat import HUMANS, within_range
+from colift.benchmark.episode.seat import HUMANS, body_parameters, within_range
 from colift.benchmark.episode.turns import policy_seed
-from colift.benchmark.twin import pair as pair_plant
-from colift.benchmark.twin import playing as lifting
-from colift.benchmark.twin.lifts import Lifts, draw_lifts, partner_body
-from colift.benchmark.twin.playing import Due, Frames, LiftState, in_chunks
+from colift.benchmark.twin.body import bodies, pushed
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.lifts import Share, chunk, shares
+from colift.benchmark.twin.pair import advance_pair, pair_at_rest
+from colift.benchmark.twin.task_twin import Missed, TaskTwin
+from colift.benchmark.twin.view import LiftState
 from colift.benchmark.world.table import WEIGHT_SHARE
 from numpy.typing import NDArray
 
@@ -22,45 +24,42 @@ Array = NDArray[np.float64]
 
 
 def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]) -> Array:
-    """Return the RMSE [mm] of each lift (n,) with an agent at the robot's end, in the twin.
+    """Return the score [mm] of each lift (n,) with an agent at the robot's end, in the twin.
 
     Parameters
     ----------
     make
         Returns a new agent.
     lifts
-        Scenarios with a NAO, and seeds.
+        Scenarios of one task with a NAO, and seeds.
     """
-    drawn = draw_lifts(lifts)
+    twin, drawn = TaskTwin.of([scenario for scenario, _ in lifts]), draw_lifts(lifts)
     agents = [make() for _ in lifts]
     for agent in agents:
         agent.reset(policy_seed())
-    period = lifts[0][0].control_period
-    step = jax.jit(partial(_step, drawn, period))
-    state = lifting.at_rest(drawn.size)
-    view = lifting.observe(state, drawn.noise[0], drawn.latency, period)
-    steps = np.asarray(drawn.steps)
-    squares, actions = np.zeros(len(lifts)), np.zeros(len(lifts), np.float32)
-    for number in range(drawn.longest()):
+    due, last = shares(drawn), drawn.longest - 1
+
+    def share(number: jax.Array) -> Share:
+        found: Share = jax.tree.map(lambda each: each[jnp.minimum(number, last)], due)
+        return found
+
+    @jax.jit
+    def step(state: LiftState, actions: jax.Array) -> tuple[LiftState, Missed, jax.Array]:
+        later, ends = twin.step(state, drawn, share(state.step), actions)
+        missed = twin.missed(state, later, drawn, ends)
+        return later, missed, twin.observe(later, drawn, share(later.step))
+
+    state = twin.at_rest(drawn)
+    view = twin.observe(state, drawn, share(state.step))
+    steps, found = np.asarray(drawn.steps), []
+    actions = np.zeros(len(lifts), np.float32)
+    for number in range(drawn.longest):
         views = np.asarray(view, np.float64)
         for index in np.flatnonzero(number < steps):
             actions[index] = np.asarray(agents[index].act(views[:, index])).ravel()[0]
-        state, view, added = step(state, jnp.asarray(actions))
-        squares += np.where(number < steps, np.asarray(added, np.float64), 0.0)
-    return lift_rmse_mm(squares, steps * drawn.reference.shape[1])
-
-
-def lift_rmse_mm(squares: Array, frames: Array) -> Array:
-    """Return the RMSE [mm] of sums of squared height differences [m2] over ``frames`` frames."""
-    return np.asarray(1000 * np.sqrt(squares / frames))
-
-
-def _step(
-    drawn: Lifts, period: float, state: LiftState, actions: jax.Array
-) -> tuple[LiftState, jax.Array, jax.Array]:
-    state, frames = lifting.control_step(state, drawn.body, lifting.due(drawn, state.step), actions)
-    noise = lifting.due(drawn, state.step).noise
-    return state, lifting.observe(state, noise, drawn.latency, period), frames.squares()
+        state, missed, view = step(state, jnp.asarray(actions))
+        found.append(missed)
+    return np.asarray(twin.score_mm(drawn, jax.tree.map(lambda *each: jnp.stack(each), *found)))
 
 
 def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
@@ -68,43 +67,41 @@ def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
 
     The second person is :class:`.SecondPerson`, unchanged: it gets the observations of the task.
     """
-    drawn = draw_lifts(lifts)
-    body, far_body = drawn.body, partner_body(len(lifts))
+    twin, drawn = TaskTwin.of([scenario for scenario, _ in lifts]), draw_lifts(lifts)
+    count, size, many = drawn.size, drawn.frames, chunk(drawn.frames)
     person = HUMANS["human"].person
+    body = bodies([body_parameters(person)] * count)
     delays = round(person.visual_delay / FRAME), round(person.haptic_delay / FRAME)
     partners = [SecondPerson(subject=person) for _ in lifts]
     for partner in partners:
         partner.reset(policy_seed())
-    size, steps = drawn.reference.shape[1], np.asarray(drawn.steps)
+    due, steps = shares(drawn), np.asarray(drawn.steps)
 
     @jax.jit
-    def step(
-        pair: pair_plant.PairPlant, correction: jax.Array, now: Due, far: jax.Array
-    ) -> tuple[pair_plant.PairPlant, jax.Array, Frames]:
-        wanted, references = lifting.references(correction, pair.heights, body, now)
+    def step(state: LiftState, far: jax.Array) -> tuple[LiftState, jax.Array]:
+        share = jax.tree.map(lambda each: each[state.step], due)
+        memory, intention, hand, references = twin.intended(state, drawn, share)
+        pair, squares = state.table, jnp.zeros(count)
+        for first in range(0, size, many):
+            frames = slice(first, first + many)
+            pair = advance_pair(pair, drawn.body, body, references[frames], far[frames])
+            squares = squares + (pair.differences[:many] ** 2).sum(axis=0)
+        intentions = jax.tree.map(pushed, state.intentions, intention)
+        after = LiftState(pair, state.command, hand, memory, intentions, state.lost, state.step + 1)
+        return after, squares
 
-        def move(state: pair_plant.PairPlant, first: int, last: int) -> pair_plant.PairPlant:
-            mine, others = references[first:last], far[first:last]
-            return pair_plant.advance_pair(state, body, far_body, mine, others)
-
-        pair, frames = in_chunks(pair, size, move)
-        return pair, wanted, frames
-
-    pair, correction = pair_plant.pair_at_rest(len(lifts)), jnp.zeros(len(lifts))
-    squares, far = np.zeros(len(lifts)), np.zeros((size, len(lifts)))
-    for number in range(drawn.longest()):
-        views = _partner_views(pair, delays, size, number)
+    state = twin.at_rest(drawn)._replace(table=pair_at_rest(count))
+    total, far = np.zeros(count), np.zeros((size, count))
+    for number in range(drawn.longest):
+        views = _partner_views(state.table, delays, size, number)
         for index in np.flatnonzero(number < steps):
             far[:, index] = within_range(partners[index].act(views[index]).tolist())
-        now = lifting.due(drawn, jnp.asarray(number))
-        pair, correction, frames = step(pair, correction, now, jnp.asarray(far, jnp.float32))
-        squares += np.where(number < steps, np.asarray(frames.squares(), np.float64), 0.0)
-    return lift_rmse_mm(squares, steps * size)
+        state, squares = step(state, jnp.asarray(far, jnp.float32))
+        total += np.where(number < steps, np.asarray(squares, np.float64), 0.0)
+    return np.asarray(1000 * np.sqrt(total / (steps * size)))
 
 
-def _partner_views(
-    pair: pair_plant.PairPlant, delays: tuple[int, int], size: int, step: int
-) -> Array:
+def _partner_views(pair: Any, delays: tuple[int, int], size: int, step: int) -> Array:
     """Return the observations of the second persons (n, HumanObservation.size(f)).
 
     ``delays`` are those of sight and of touch, in frames.

@@ -16,10 +16,10 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import policy_seed
 from colift.benchmark.tasks.touch import Ends, Touch, frame_of
 from colift.benchmark.twin.columns import LiftSeries, columns
+from colift.benchmark.twin.drawing import check_modelled
 from colift.benchmark.twin.functions import LIFTS
-from colift.benchmark.twin.touch_lifts import check_twin
-from colift.benchmark.twin.touch_view import aged
-from colift.benchmark.world import HISTORY_FRAMES
+from colift.benchmark.twin.view import aged
+from colift.benchmark.world.interface import HISTORY_FRAMES
 
 CLOSE: Final = 1e-9
 """Largest difference of a number, in its unit, that rounding explains in double precision."""
@@ -142,7 +142,7 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
     InputError
         If the twin does not model the scenario.
     """
-    check_twin(scenario)
+    check_modelled(scenario)
     robot, worst = make(), [0.0]
     robot.reset(policy_seed())
 

@@ -87,21 +87,19 @@ def delayed(history: jax.Array, delay: jax.Array, frames: int) -> jax.Array:
     Parameters
     ----------
     history
-        (DEPTH, n) values, newest first.
+        Values, newest first, of at least :data:`DEPTH` frames.
     delay
         (n,) delays in frames, of at least ``frames - 1``.
     frames
         Number of frames.
     """
-    # Not a gather: for its gradient, XLA would copy the history for each element.
-    picked = (jnp.arange(DEPTH)[:, jnp.newaxis] == delay).astype(history.dtype)
-    values = [(picked[i:] * history[: DEPTH - i]).sum(axis=0) for i in range(frames)]
-    return jnp.stack(values)
+    ages = delay - jnp.arange(frames)[:, jnp.newaxis]
+    return jnp.take_along_axis(history, ages, axis=0)
 
 
 def pushed(history: jax.Array, new: jax.Array) -> jax.Array:
-    """Return a history (DEPTH, n), newest first, after new frames (frames, n), oldest first."""
-    return jnp.concatenate((new[::-1], history[: DEPTH - len(new)]))
+    """Return a history, newest first, after new frames (frames, ...), oldest first."""
+    return jnp.concatenate((new[::-1], history[: len(history) - len(new)]))
 
 
 def wanted_shift(body: Body, difference: jax.Array, force: jax.Array) -> jax.Array:

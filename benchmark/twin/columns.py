@@ -38,8 +38,11 @@ class LiftSeries(NamedTuple):
         return jnp.take_along_axis(self.values, place[jnp.newaxis], axis=0)[0]
 
     def next(self, frame: Any, frames: int, /) -> jax.Array:
-        """Return the numbers (frames, n) of some frames, of which ``frame`` () is the first."""
-        return jnp.asarray(jax.lax.dynamic_slice_in_dim(self.values, frame + 1, frames))
+        """Return the numbers (frames, n) of frames from ``frame`` on: () or, in each lift, (n,)."""
+        if jnp.ndim(frame) == 0:
+            return jnp.asarray(jax.lax.dynamic_slice_in_dim(self.values, frame + 1, frames))
+        rows = frame + 1 + jnp.arange(frames)[:, jnp.newaxis]
+        return jnp.take_along_axis(self.values, jnp.minimum(rows, len(self.values) - 1), axis=0)
 
     @property
     def last(self) -> int:

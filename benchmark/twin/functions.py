@@ -8,6 +8,7 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.senses import LONGEST_EPISODE
+from colift.benchmark.twin.inner import each_frame
 
 _LONGEST: Final = round(LONGEST_EPISODE / FRAME)
 _TIMES: Final = np.arange(-_LONGEST, _LONGEST + 1) * FRAME
@@ -57,7 +58,7 @@ class LiftFunctions:
         self, step: Callable[..., Any], memory: Any, columns: tuple[Any, ...], /
     ) -> tuple[Any, Any]:
         """Return the memory after some frames, and the output of each, from columns (f, n)."""
-        return jax.lax.scan(step, memory, columns)
+        return each_frame(step, memory, columns)
 
 
 LIFTS: Final = LiftFunctions()

@@ -9,6 +9,7 @@ from colift.benchmark.episode.sensing import SENSED_FRAMES
 from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.twin.arm import ArmVariation, followed, prepared
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.twin.inner import each_frame
 from colift.benchmark.twin.plant import Moving, Plant, after_physics_step, plant_at_rest
 from colift.benchmark.twin.rolling import Rolling, pressed_by, rolled, shared_load
 from colift.benchmark.world.table import (
@@ -155,7 +156,7 @@ def advance_haptic_plant(
             ball = None if ball is None else rolled(ball, now, after)
             return (after, wrist, ball), (hands, after.far_force, -far)
 
-        (now, _, ball), found = jax.lax.scan(
+        (now, _, ball), found = each_frame(
             physics_step, (now, wrist, ball), jnp.arange(_STEPS) / _STEPS
         )
         force, far_force, torque = (each.mean(axis=0) for each in found)
@@ -168,7 +169,7 @@ def advance_haptic_plant(
         felt = Felt(now.height, difference, force, difference - wanted.difference, touch)
         return (now, wanted.wrist, ball), (felt, None if ball is None else ball.place)
 
-    (moving, wrist, ball), (felt, places) = jax.lax.scan(
+    (moving, wrist, ball), (felt, places) = each_frame(
         frame, (state.plant.moving, state.wrist, ball), (meant, shifts, commands)
     )
     return remembered(state, moving, wrist, felt), ball, places

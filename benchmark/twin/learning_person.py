@@ -5,9 +5,9 @@ from typing import Any, Final, NamedTuple
 import jax
 import jax.numpy as jnp
 from colift.benchmark.twin.body import Body, delayed
+from colift.benchmark.twin.commands import ramp
 from colift.benchmark.twin.plant import Plant
-from colift.benchmark.twin.playing import ramp
-from colift.benchmark.twin.rollout import Policy
+from colift.benchmark.twin.policy import Policy
 
 ADDED_HEIGHT: Final = 0.02
 """Largest addition of a learning person to the height of the hands [m]."""

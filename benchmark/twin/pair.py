@@ -18,6 +18,7 @@ import jax
 import jax.numpy as jnp
 from colift.agents.agent import FRAME
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.twin.inner import each_frame
 from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
@@ -64,6 +65,11 @@ class PairPlant(NamedTuple):
     """History of the first person's force, beyond the share of the weight [N]."""
     far_forces: jax.Array
     """History of the second person's force, beyond the share of the weight [N]."""
+
+    @property
+    def hand(self) -> jax.Array:
+        """Height of the second person's hands [m]."""
+        return self.heights[0] + self.differences[0]
 
 
 def pair_at_rest(count: int) -> PairPlant:
@@ -114,7 +120,7 @@ def advance_pair(
         after = after._replace(reflex=reflex, far_reflex=far_reflex)
         return after, (after.height, TABLE_LENGTH * jnp.sin(after.pitch), force, far_force)
 
-    moving, (heights, differences, forces, far_forces) = jax.lax.scan(
+    moving, (heights, differences, forces, far_forces) = each_frame(
         frame, pair.moving, (references, far_references, shifts, far_shifts)
     )
     return PairPlant(

@@ -5,10 +5,10 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 from colift.agents.humans.person import Person
-from colift.benchmark.twin.touch_lifts import TouchLifts
+from colift.benchmark.twin.lifts import Lifts
 
 
-def with_new_manners(person: Person, lifts: TouchLifts, key: jax.Array, wide: float) -> TouchLifts:
+def with_new_manners(person: Person, lifts: Lifts, key: jax.Array, wide: float) -> Lifts:
     """Return lifts with other manners of their people.
 
     Parameters
@@ -32,13 +32,13 @@ def with_new_manners(person: Person, lifts: TouchLifts, key: jax.Array, wide: fl
     return _replaced(lifts, manner)
 
 
-def with_quiet_wrists(person: Person, lifts: TouchLifts) -> TouchLifts:
+def with_quiet_wrists(person: Person, lifts: Lifts) -> Lifts:
     """Return lifts in which the people's wrists show no intention."""
     zero = jnp.zeros(lifts.size)
     return _replaced(lifts, dict.fromkeys(person.shown, zero))
 
 
-def _replaced(lifts: TouchLifts, numbers: dict[str, Any]) -> TouchLifts:
+def _replaced(lifts: Lifts, numbers: dict[str, Any]) -> Lifts:
     if not numbers:
         return lifts
     manner = lifts.drawn.manner._replace(**numbers)

@@ -17,6 +17,7 @@ import jax.numpy as jnp
 from colift.agents.agent import FRAME
 from colift.benchmark.twin.arm import Arm, ArmVariation, arms_at_rest, drive
 from colift.benchmark.twin.body import DEPTH, Body, activated, delayed, pushed, wanted_shift
+from colift.benchmark.twin.inner import each_frame
 from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_DAMPING,
@@ -56,7 +57,7 @@ class Moving(NamedTuple):
 
 
 class Plant(NamedTuple):
-    """The state of n lifts; histories are (DEPTH, n), newest first."""
+    """The state of n lifts; histories are (depth, n), newest first."""
 
     moving: Moving
     heights: jax.Array
@@ -72,12 +73,22 @@ class Plant(NamedTuple):
         return self.moving.arm.hand
 
 
-def plant_at_rest(count: int, load: jax.Array | float = 1.0) -> Plant:
-    """Return lifts at rest, with tables of ``load`` times the benchmark's mass."""
-    zero, past = jnp.zeros(count), jnp.zeros((DEPTH, count))
+def plant_at_rest(count: int, load: jax.Array | float = 1.0, depth: int = DEPTH) -> Plant:
+    """Return lifts at rest.
+
+    Parameters
+    ----------
+    count
+        Number of lifts.
+    load
+        Mass of their tables relative to the benchmark's.
+    depth
+        Frames of the past heights that are kept.
+    """
+    zero, past = jnp.zeros(count), jnp.zeros((depth, count))
     arms = arms_at_rest(count, load)
     moving = Moving(zero, zero, zero, zero, zero, zero, arms.load, zero, zero, arms, zero)
-    return Plant(moving, past, past, past)
+    return Plant(moving, past, past, jnp.zeros((DEPTH, count)))
 
 
 def advance_plant(
@@ -122,7 +133,7 @@ def advance_plant(
         after = after._replace(reflex=reflex)
         return after, (after.height, after.far_height - after.height, force)
 
-    moving, (heights, differences, forces) = jax.lax.scan(
+    moving, (heights, differences, forces) = each_frame(
         frame, plant.moving, (references, shifts, commands)
     )
     return Plant(

@@ -131,16 +131,8 @@ def _again(
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[int, Episode]:
     """Play the episodes at the places again, each as a separate task, in that order."""
-    suite, there, found = run.suite, placed(policy, executor), {}
-    wanted = [
-        Batch(
-            policy=there,
-            scenario=suite.scenarios[index // len(suite.seeds)],
-            seeds=(suite.seeds[index % len(suite.seeds)],),
-            indices=(index,),
-        )
-        for index in indices
-    ]
+    there, found = placed(policy, executor), {}
+    wanted = [Batch(policy=there, lifts=(run.suite.at(index),)) for index in indices]
     for index, episode in run_batches(wanted, executor, Faults()):
         found[index] = episode
         keep(index, episode)

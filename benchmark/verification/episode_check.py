@@ -17,8 +17,8 @@ from colift.benchmark.episode.metric import Scores
 from colift.benchmark.episode.replay import ReplayError, replay
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.execution.batches import SEEDS_PER_BATCH
-from colift.benchmark.suites.suite import Suite
+from colift.benchmark.execution.batches import LIFTS_PER_BATCH
+from colift.benchmark.suites.suite import Due, Suite, alike
 from colift.benchmark.tasks.worlds import played_lift
 from colift.benchmark.verification.channel_check import channel_fault
 from colift.benchmark.verification.deviation import Place, beyond_tolerance, first_difference
@@ -44,14 +44,11 @@ class Checked:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class EpisodeCheck:
-    """Some episodes of one scenario, to be simulated again."""
+    """Some episodes of a suite, to be simulated again."""
 
-    scenario: Scenario
-    seeds: tuple[int, ...]
-    indices: tuple[int, ...]
-    """The place of each episode in the suite."""
+    lifts: tuple[Due, ...]
     episodes: tuple[Episode, ...]
-    """The claimed episodes."""
+    """The claimed episodes of these lifts."""
     same_platform: bool
     """Whether equal bits are demanded."""
     channel: Channel | None = None
@@ -63,29 +60,32 @@ class EpisodeCheck:
 
     def results(self) -> Iterator[Checked]:
         """Yield the result of each replay."""
-        with played_lift(self.scenario) as lift:
-            for claim in zip(self.indices, self.seeds, self.episodes, strict=True):
-                with blaming_plugins(self.scenario, claim[1]):
-                    checked = _check(lift, *claim, self.channel, same_platform=self.same_platform)
-                yield checked
+        claims, demanded = iter(self.episodes), self.same_platform
+        for scenario, some in alike(self.lifts):
+            with played_lift(scenario) as lift:
+                for due in some:
+                    with blaming_plugins(scenario, due.seed):
+                        checked = _check(
+                            lift, due, next(claims), self.channel, same_platform=demanded
+                        )
+                    yield checked
 
 
 def _check(
     lift: Lift,
-    index: int,
-    seed: int,
+    due: Due,
     claim: Episode,
     channel: Channel | None,
     *,
     same_platform: bool,
 ) -> Checked:
-    name, logged = f"{lift.scenario.name} seed {seed}", claim.trace
+    index, scenario, seed = due
+    name, logged = f"{scenario.name} seed {seed}", claim.trace
 
     def finding(message: str, file: str = TRACES, step: int | None = None) -> Finding:
         return Finding(file=file, episode=one_line(name), step=step, message=message)
 
-    fault = _other_hand(lift.scenario, logged)
-    fault = fault or channel_fault(channel, lift.scenario, seed, logged)
+    fault = _other_hand(scenario, logged) or channel_fault(channel, scenario, seed, logged)
     if fault is not None:
         step, message = fault
         return Checked(index=index, finding=finding(message, step=step))
@@ -161,21 +161,16 @@ def simulate(
 
 def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
     """Return the checks, divided as :func:`.batches.batches` divides a run."""
-    seeds = len(suite.seeds)
-    members: dict[tuple[int, int], list[int]] = {}
-    for i, index in enumerate(bundle.indices):
-        row, column = divmod(index, seeds)
-        members.setdefault((row, column // SEEDS_PER_BATCH), []).append(i)
+    firsts = range(0, len(bundle.indices), LIFTS_PER_BATCH)
+    parts = [slice(first, first + LIFTS_PER_BATCH) for first in firsts]
     return [
         EpisodeCheck(
-            scenario=suite.scenarios[row],
-            seeds=tuple(suite.seeds[bundle.indices[i] % seeds] for i in some),
-            indices=tuple(bundle.indices[i] for i in some),
-            episodes=tuple(bundle.episodes[i] for i in some),
+            lifts=tuple(suite.at(index) for index in bundle.indices[part]),
+            episodes=tuple(bundle.episodes[part]),
             same_platform=same_platform,
             channel=bundle.recipe.channel,
         )
-        for (row, _), some in members.items()
+        for part in parts
     ]
 
 

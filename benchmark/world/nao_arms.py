@@ -1,14 +1,12 @@
 """The NAO's arms at the far end of the table."""
 
 import math
-from dataclasses import dataclass, replace
-from typing import ClassVar, Final, Self
+from typing import Final
 
 from colift.agents.agent import FRAME
 from colift.benchmark.world.engine import BulletEngine
-from colift.benchmark.world.interface import Engine
 from colift.benchmark.world.nao_arm import NaoArm
-from colift.benchmark.world.servo import SERVO, Servo
+from colift.benchmark.world.servo import Servo
 from colift.benchmark.world.table import PITCH
 from colift.robots.nao.facts import ARM
 from colift.robots.nao.kinematics import GRIP_X, GRIP_Y, REST_Z, arm_path
@@ -111,31 +109,3 @@ class NaoArms:
         """
         heights = [arm.hand_height() for arm, _ in self._arms]
         return sum(heights) / len(heights) - REST_Z
-
-
-@dataclass(frozen=True)
-class NaoFarEnd:
-    """A NAO as the holder of the far end."""
-
-    servo: Servo = SERVO
-    """The position servo of its joints."""
-
-    apart: bool = False
-    """Whether the engine has both arms, instead of one for both; see :class:`NaoArms`."""
-
-    mass: ClassVar[float] = 0.0
-    """No mass beside that of the robot's own bodies [kg]."""
-
-    carries: ClassVar[bool] = False
-
-    def with_arms(self, sag: float, gain: float) -> Self:
-        """Return the same robot with other servos; see :class:`.Adjustable`."""
-        servo = self.servo
-        share = -math.expm1(-FRAME / servo.time)
-        time = -FRAME / math.log1p(-gain * share)
-        return replace(self, servo=replace(servo, time=time, stiffness=servo.stiffness / sag))
-
-    def hold(self, engine: Engine) -> NaoArms:
-        """Grip the table with both hands; see :meth:`.FarEnd.hold`."""
-        assert isinstance(engine, BulletEngine)
-        return NaoArms(engine, self.servo, apart=self.apart)

@@ -11,7 +11,7 @@ from colift.agents.senses import MOCAP_NOISE
 from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.hardware.estimates import Estimates, estimate_setup
 from colift.benchmark.tables.printing import show, table
-from colift.benchmark.world import SERVO
+from colift.benchmark.world.servo import SERVO
 from colift.cli.document import print_json
 from colift.cli.options import AsJson
 from rich.table import Table

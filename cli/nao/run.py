@@ -276,8 +276,6 @@ def _report(
         print_json(plain)
         return
     show(results_table(content, done.suite.metrics), results_text(content, done.suite.metrics))
-    if len(done.episodes) > 1:
-        show(f"The interval holds for further lifts of {done.episodes[0].subject}.")
     show(timing_table(timing))
     if out is not None:
         print(f"Result bundle: {out}")

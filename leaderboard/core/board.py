@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, Self
+from typing import TYPE_CHECKING, Final, Self
 
 from colift.agents.submissions.submission import Submission
 from colift.base.errors import InputError
@@ -24,19 +24,12 @@ from colift.leaderboard.core.standings import (
 )
 from colift.leaderboard.core.tables import Tables
 from colift.leaderboard.database.connection import URL, Database
-from colift.leaderboard.database.queries import (
-    read_entries,
-    read_events,
-    record_errors,
-    record_event,
-)
+from colift.leaderboard.database.queries import read_entries, read_events
 from colift.leaderboard.database.room import NoRoomError, is_full
 from colift.leaderboard.database.schema import entries, events
-from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import (
     BoardEntry,
     Event,
-    Kind,
     Season,
     SeasonInfo,
     check_season_suite,
@@ -287,48 +280,6 @@ class Board:
         with self.database.reading() as connection:
             return read_events(connection, *conditions, newest=newest)
 
-    def withdraw(self, season: str, digest: str, who: str, why: str) -> None:
-        """Take a row out of the ranking at its submitter's request; it stays visible.
-
-        Raises
-        ------
-        InputError
-            If the submission has no row in that season.
-        """
-        self._change(season, digest, "withdrawal", who, why)
-
-    def remove(self, season: str, digest: str, who: str, why: str) -> None:
-        """Take a row out of the ranking at the maintainer's request; it stays visible."""
-        self._change(season, digest, "removal", who, why)
-
-    def reinstate(self, season: str, digest: str, who: str, why: str) -> None:
-        """Take a withdrawn or removed row back into the ranking."""
-        self._change(season, digest, "reinstatement", who, why)
-
-    def rescore(
-        self, season: str, row: BoardRow, hidden_rmse_mm: tuple[float, ...], who: str, why: str
-    ) -> None:
-        """Replace a row after a mistake in its evaluation; the entry stays.
-
-        Parameters
-        ----------
-        season
-            Its season.
-        row
-            The corrected row of the same submission.
-        hidden_rmse_mm
-            Corrected RMSE of each hidden episode.
-        who, why
-            The actor and the reason.
-
-        Raises
-        ------
-        InputError
-            If the submission has no row in that season.
-        """
-        content = {"row": row.plain()}
-        self._change(season, row.submission, "rescore", who, why, content, hidden_rmse_mm)
-
     def bundle(self, season: str, digest: str) -> Path | None:
         """Return the folder of a submission's public run, or None if the board has none."""
         place = self.store.bundle(season, digest)
@@ -378,30 +329,3 @@ class Board:
             If there is no such season.
         """
         return self._book.current() if season is None else self._book.named(season)
-
-    def _change(
-        self,
-        season: str,
-        digest: str,
-        kind: Kind,
-        who: str,
-        why: str,
-        content: dict[str, Any] | None = None,
-        hidden_rmse_mm: tuple[float, ...] = (),
-    ) -> None:
-        entry = self.entry(season, digest)
-        if entry is None or entry.row is None:
-            raise InputError(f"season {season} of {self.folder} has no row of submission {digest}")
-        event = Event(
-            at=self.clock(),
-            who=who,
-            kind=kind,
-            why=why,
-            season=season,
-            submission=digest,
-            content=content,
-        )
-        with self.database.writing() as connection:
-            record_event(connection, event)
-            if hidden_rmse_mm:
-                record_errors(connection, season, digest, hidden_rmse_mm)

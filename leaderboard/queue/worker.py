@@ -17,6 +17,7 @@ from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.execution.runner import placed
 from colift.leaderboard.core.board import BUILTIN, LOCAL, Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.evaluation.entrant import (
     Entrant,
     NoSandboxError,
@@ -159,7 +160,7 @@ class Worker:
                 raise InputError(
                     f"{entry.name} keeps its row, but would be refused now: {result.refusal}"
                 )
-            self._board.rescore(season, result.row, result.hidden_rmse_mm, who, why)
+            Decisions(self._board).rescore(season, result.row, result.hidden_rmse_mm, who, why)
             self._board.store.place_bundle(season, digest, made)
         return result.row
 

@@ -72,7 +72,7 @@ def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
     found = []
     for choice in choose_replays(bundle.episodes):
         index, episode = bundle.indices[choice.row], bundle.episodes[choice.row]
-        scenario = suite.scenarios[index // len(suite.seeds)]
+        scenario = suite.at(index).scenario
         if index not in ghosts:
             ghosts[index] = play_ghost(scenario, episode.seed)
         found.append(

@@ -8,6 +8,7 @@ name                   what it is
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
 ``colift_v0``          the environment as a module, as PettingZoo's own are
+``twin``               the twin as an environment: thousands of lifts at once, with gradients
 ====================== ==========================================================================
 
 Importing colift loads none of its parts: each is loaded when it is first used. The import registers
@@ -23,7 +24,7 @@ from colift.registration import TYPE_CHECKING, register_with_gymnasium
 if TYPE_CHECKING:
     from typing import Any, Final
 
-    from colift import colift_v0
+    from colift import colift_v0, twin
     from colift.colift_v0 import env, parallel_env
     from colift.evaluation import Evaluation, evaluate
     from colift.listing import list_humans, list_policies, list_suites
@@ -42,6 +43,7 @@ __all__ = [
     "list_suites",
     "make",
     "parallel_env",
+    "twin",
 ]
 
 _PLACES: Final = {
@@ -62,7 +64,7 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         return version("colift")
-    if name == "colift_v0":
+    if name in ("colift_v0", "twin"):
         return importlib.import_module(f".{name}", __name__)
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

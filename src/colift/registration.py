@@ -75,9 +75,9 @@ def _twin(**settings: Any) -> VectorEnv[Any, Any, Any]:
     from colift.benchmark.twin.libraries import require_jax
 
     require_jax()
-    from colift.benchmark.environment.twin import TwinEnv
+    from colift.benchmark.twin_environment.vector import TwinVectorEnv
 
-    return TwinEnv(**settings)
+    return TwinVectorEnv(**settings)
 
 
 def make(

@@ -8,6 +8,7 @@ from colift.base.registry import SUITES, entries
 from colift.benchmark.results.scores import ScoreTable
 from colift.cli.tables.board import board_table
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue
 from rich.console import Console
@@ -24,7 +25,7 @@ def filled(board):
     """Return a board of three rows, one taken out, and the human-human baseline between them."""
     for name, mean in ((LONG, 9.8), ("blend", 16.27), ("cheat", 1.2)):
         add(board, name, mean)
-    board.withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
+    Decisions(board).withdraw("1", digest("cheat"), "Ada", "it read the [bold]clock[/bold]")
     strata = tuple(("pause", f"S{i}") for i in range(1, 5))
     human_human = ScoreTable(
         strata=strata,

@@ -311,6 +311,14 @@ def test_a_simulated_laboratory_needs_no_network(colift, tmp_path):
     assert first.stdout == again.stdout
 
 
+def test_trials_with_one_person_have_no_interval_and_say_so(colift):
+    done = colift("nao", "run", "copy", "--robot", "world:smooth/S1", "--trials", 2)
+    assert done.returncode == 0, done.stderr
+    assert "with one person, so that there is no interval" in " ".join(done.stdout.split())
+    assert "quartiles" not in done.stdout
+    assert "95 %" not in done.stdout
+
+
 def test_somebody_elses_policy_runs_in_a_sandbox(colift, tmp_path):
     path = tmp_path / "mine.py"
     path.write_text(

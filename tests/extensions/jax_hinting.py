@@ -9,13 +9,14 @@ import pytest
 from colift.agents.policies.copy import Copy
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
-from colift.benchmark.suites.catalogue import make_scenario, make_task
+from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.training import apg
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lessons import lesson_of
 from colift.benchmark.twin.agreement import CLOSE, largest_difference
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 
 from . import hinting
 
@@ -34,14 +35,14 @@ def test_its_rules_are_the_same_in_both():
 
 
 def test_its_lifts_are_those_of_the_engine_and_gradients_are_slopes():
-    twin, drawn = TaskTwin(make_task("hint")), stack_touch([draw_touch(*each) for each in lifts()])
+    twin, drawn = TaskTwin.of([scenario for scenario, _ in lifts()]), draw_lifts(lifts())
 
     @jax.jit
     def errors(gain):
         def policy(memory, seen):
             return memory, gain * (seen[0] - seen[3])
 
-        return twin.rmse_mm(policy, jnp.zeros(drawn.size), drawn)
+        return rollout(twin, policy, jnp.zeros(drawn.size), drawn).rmse_mm
 
     class Following:
         def reset(self, seed):
@@ -63,4 +64,5 @@ def test_a_network_learns_it_in_the_twin():
     settings = ApgSettings(task="hint", updates=2, lifts=4, batch=4, units=3)
     *_, last = apg.updates(settings, 0)
     lesson = lesson_of("hint")
-    assert np.isfinite(lesson.error(lesson.weights(last.learner.network)))
+    errors = lesson.errors(last.learner.network, lesson.draw(settings))
+    assert np.isfinite(errors).all()

@@ -26,7 +26,7 @@ from colift.benchmark.tasks.ball.scores import ball_settling_ms, velocity_peaks
 from colift.benchmark.tasks.ball.second import BallPartner, BallSenses, with_ball
 from colift.benchmark.tasks.ball.table import BALL_METRICS
 from colift.benchmark.tasks.touch import Touch, torque_of
-from colift.benchmark.world import Ball
+from colift.benchmark.world.ball import Ball
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH, WEIGHT_SHARE
 from numpy.typing import NDArray
 

@@ -33,7 +33,9 @@ from colift.benchmark.episode.smoothness import ldlj, sparc
 from colift.benchmark.episode.task import Bounds, Playing
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.tasks.level.table import LEVEL_METRICS
-from colift.benchmark.world import PHYSICS, BodyParameters, BulletWorld, FarEnd, Physics
+from colift.benchmark.world.human_body import BodyParameters
+from colift.benchmark.world.interface import FarEnd, World
+from colift.benchmark.world.physics import PHYSICS, Physics
 from colift.benchmark.world.table import TABLE, TABLE_LENGTH, Table
 from numpy.typing import NDArray
 
@@ -76,8 +78,11 @@ class Level:
         table: Table = TABLE,
         *,
         physics: Physics | None = None,
-    ) -> BulletWorld:
+    ) -> World:
         """Return the world of the table alone."""
+        # The engine is imported where it is used: rules and twin do without.
+        from colift.benchmark.world.bullet_world import BulletWorld
+
         return BulletWorld(human, far_end, table, physics=physics or self.physics)
 
     def robot_observation(self, lift: Playing) -> Observation:

@@ -143,8 +143,8 @@
       setTimeout(() => {
         if (this.lift !== message.lift) return;
         this.refresh = this.delays.refresh;
-        this.told.finished(message, this.delays);
         this.clear();
+        this.told.finished(message, this.delays);
       }, this.frames.playout + LAST_MS);
     }
 

@@ -73,7 +73,8 @@
     get may() {
       const phase = this.state && this.state.phase;
       const ready = phase === "ready" || phase === "ended";
-      return ready && this.connection.open && this.settled && !this.watching && !this.lifting.hand.closed;
+      const free = !this.lifting.hand.closed && !this.lifting.frames.running; // Its last frames are shown first.
+      return ready && this.connection.open && this.settled && !this.watching && free;
     }
 
     // By a link to a session, or with nothing chosen yet.

@@ -14,6 +14,7 @@ from colift.benchmark.environment import RobotEnv, parallel_env, training_env
 def test_a_copy_has_a_world_of_its_own(duplicate):
     first = RobotEnv(behaviour="pause", subject="S2")
     second = duplicate(first)
+    assert first._env.lift.world.client != second._env.lift.world.client
     alone = [first.reset(seed=3)[0], *(first.step(np.full(1, 0.02))[0] for _ in range(5))]
     with pytest.raises(RuntimeError, match=r"call reset\(\) first"):
         second.step(np.zeros(1))

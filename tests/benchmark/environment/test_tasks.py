@@ -1,11 +1,16 @@
 """The environment of a task with senses, rewards and lifts of its own."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
-from colift.benchmark.environment import RobotEnv, parallel_env
-from colift.benchmark.suites.catalogue import make_task
+from colift.benchmark.environment import ParallelLift, RobotEnv, parallel_env
+from colift.benchmark.execution.batches import play
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.intent.task import Intent
+from colift.benchmark.tasks.level.task import Level
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
@@ -56,5 +61,45 @@ def test_lifts_are_drawn_for_every_task(task):
 def test_an_unknown_task_and_a_reward_that_it_lacks_are_refused_by_name():
     with pytest.raises(InputError, match="unknown task 'level up'"):
         parallel_env(task="level up")
-    with pytest.raises(InputError, match="task 'intent' has no reward 'score'"):
-        parallel_env("pivot", task="intent", reward="score")
+    odd = replace(make_scenario("smooth", "S2"), task=ScoredOtherwise())
+    with pytest.raises(InputError, match="task 'otherwise' has no reward 'score'"):
+        ParallelLift(odd, reward="score")
+
+
+class ScoredOtherwise(Level):
+    name = "otherwise"
+
+    def score(self, lift, trace, *, failed):
+        return super().score(lift, trace, failed=failed)
+
+
+LIFTS = [
+    ("intent", "pivot", "pose_wrist"),
+    ("intent", "switching", "hold"),
+    ("agree", "abreast", "agree_follower"),
+    ("agree", "own_hurdle", "hold"),
+    ("agree", "no_hurdle", "agree_follower"),
+    ("ball", "ball_pause", "ball_steady"),
+    ("ball", "ball_smooth", "copy"),
+]
+
+
+@pytest.mark.parametrize(("task", "behaviour", "name"), LIFTS)
+def test_rewards_of_the_score_add_up_to_it_in_tasks_that_are_stated_by_rules(task, behaviour, name):
+    made = RobotEnv(behaviour=behaviour, subject="S2", task=task, reward="score")
+    policy, rewards, ended = PolicySpec(text=name).make(), [], False
+    policy.reset(0)
+    seen, _ = made.reset(seed=3)
+    while not ended:
+        seen, reward, terminated, truncated, _ = made.step(policy.act(seen))
+        rewards.append(reward)
+        ended = terminated or truncated
+    scenario = make_scenario(behaviour, "S2", task=task)
+    (played,) = play(PolicySpec(text=name), scenario, (3,))
+    lift = made._env.lift
+    steps = lift.horizon / lift.frames_per_step
+    rmse_mm = 10 * np.sqrt(-sum(rewards) / steps)
+    assert rmse_mm == pytest.approx(played.scores["rmse_mm"], rel=1e-9)
+    assert min(map(abs, rewards)) < max(map(abs, rewards))  # It is not all in one step.
+    assert sum(reward != 0.0 for reward in rewards) > len(rewards) / 10
+    made.close()

@@ -24,7 +24,7 @@ from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.metrics import rmse_mm
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.level.task import BEHAVIOURS
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 from gymnasium.utils.env_checker import check_env
 from pettingzoo.test import api_test, parallel_api_test, parallel_seed_test
 

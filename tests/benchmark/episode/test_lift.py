@@ -11,7 +11,7 @@ from colift.base.errors import InputError
 from colift.benchmark.environment import parallel_env
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.world import since_reset
+from colift.benchmark.world.interface import since_reset
 
 NO_CHANGE = np.zeros(1)
 

@@ -13,6 +13,7 @@ from colift.benchmark.bundle.table import table_row
 from colift.benchmark.execution.batches import Batch, Faults, batches, run_batches
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.suites.suite import make_suite
 
 from ...four import FOUR
 
@@ -70,6 +71,16 @@ def failing(tmp_path):
 
 def resets(folder):
     return (folder / "resets").stat().st_size
+
+
+def test_a_batch_has_lifts_of_several_people():
+    suite = make_suite("standard-v1")  # Nobody lifts twice in the same way.
+    found = list(batches(PolicySpec(text="copy"), suite, done={7}))
+    assert [len(batch.lifts) for batch in found] == [5, 4, *[5] * 58]
+    lifts = [due for batch in found for due in batch.lifts]
+    assert [due.place for due in lifts] == [i for i in range(suite.size) if i != 7]
+    expected = [(each, seed) for each in suite.scenarios for seed in suite.seeds]
+    assert all((due.scenario, due.seed) == expected[due.place] for due in lifts)
 
 
 def test_a_fault_of_the_machine_changes_nothing_but_the_count(failing, undisturbed, tmp_path):

@@ -36,14 +36,17 @@ class Echo(Executor):
 
 class Answer(Future):
     def result(self, timeout=None):
-        scenario = self.batch.scenario
-        whose = {"behaviour": scenario.behaviour, "subject": scenario.subject.name}
         return [
             (
-                place,
-                dataclasses.replace(pickle.loads(self.executor.episode), seed=seed, **whose),
+                index,
+                dataclasses.replace(
+                    pickle.loads(self.executor.episode),
+                    seed=seed,
+                    behaviour=scenario.behaviour,
+                    subject=scenario.subject.name,
+                ),
             )
-            for place, seed in zip(self.batch.indices, self.batch.seeds, strict=True)
+            for index, scenario, seed in self.batch.lifts
         ]
 
 

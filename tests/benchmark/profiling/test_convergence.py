@@ -7,7 +7,7 @@ import pytest
 from colift.benchmark.profiling.convergence import PAIR, physics_errors
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.touch import FINER
-from colift.benchmark.world import PHYSICS, Physics
+from colift.benchmark.world.physics import PHYSICS, Physics
 
 
 @pytest.mark.parametrize("policy", ["ball_calm", PAIR])

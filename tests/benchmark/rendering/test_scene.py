@@ -7,7 +7,8 @@ from colift.base.registry import ROBOTS, own_entries
 from colift.benchmark.environment.parallel import ParallelLift, parallel_env
 from colift.benchmark.episode.recorder import Recorder
 from colift.benchmark.rendering.bodies import shown_body
-from colift.benchmark.rendering.scene import Picture, Scene, check_render_mode
+from colift.benchmark.rendering.modes import check_render_mode
+from colift.benchmark.rendering.scene import Picture, Scene
 from colift.benchmark.rendering.style import HUMAN, ROBOT, SKY
 from colift.benchmark.robots.robot import make_robot
 from PIL import ImageColor

@@ -11,8 +11,8 @@ from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.episode.seat import body_parameters
 from colift.benchmark.robots.iiwa import EFFORT, ROW, STROKE, Iiwa, postures
 from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.world import BulletWorld
 from colift.benchmark.world.bullet import pybullet
+from colift.benchmark.world.bullet_world import BulletWorld
 
 BODY = body_parameters(SUBJECTS["S3"])
 

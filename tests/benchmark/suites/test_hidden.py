@@ -148,7 +148,7 @@ def test_a_policys_seed_does_not_tell_hidden_episodes_from_public_ones():
 def test_the_order_in_which_episodes_are_played_follows_from_the_secret_and_the_policy():
     suite = hidden_suite(QUICK, SECRET)
     orders = {
-        tuple(place for task in shuffled_batches(policy, suite, secret) for place in task.indices)
+        tuple(due.place for each in shuffled_batches(policy, suite, secret) for due in each.lifts)
         for policy in (PolicySpec(text="copy"), PolicySpec(text="hold"))
         for secret in (SECRET, OTHER)
     }
@@ -161,7 +161,8 @@ def test_the_order_changes_no_episode(hidden):
     policy, suite = PolicySpec(text="copy"), hidden_suite(QUICK, SECRET)
     run = run_suite(policy, suite, secret=SECRET, keep=lambda place, _: played.append(place))
     assert digests(run) == digests(hidden)
-    assert [place for t in shuffled_batches(policy, suite, SECRET) for place in t.indices] == played
+    batches = shuffled_batches(policy, suite, SECRET)
+    assert [due.place for batch in batches for due in batch.lifts] == played
     assert played != sorted(played)
 
 

@@ -16,7 +16,9 @@ from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.lesson import BatchDraw
 from colift.benchmark.training.pool import draw_batch, draw_pool
-from colift.benchmark.twin.rollout import recurrent
+from colift.benchmark.training.sensing import OWN, SEEN
+from colift.benchmark.training.validation import VALIDATION_SEEDS
+from colift.benchmark.twin.policy import recurrent
 
 TINY = ApgSettings(updates=4, lifts=10, batch=4, units=3, wide=0.4)
 
@@ -36,7 +38,7 @@ def _short(monkeypatch, pool):
     """Draw the lifts once; two points on the curve, of few lifts."""
     monkeypatch.setattr(level_lesson, "draw_pool", lambda lifts, wide, unsettled: pool)
     monkeypatch.setattr(apg_course, "EVERY", 2)
-    monkeypatch.setattr(level_lesson, "validation_error", lambda make: 1.0)
+    monkeypatch.setattr(level_lesson, "VALIDATION_SEEDS", VALIDATION_SEEDS[:2])
 
 
 def same(one, other):
@@ -46,9 +48,9 @@ def same(one, other):
 def test_the_pool_has_as_many_wide_lifts_as_asked_for(pool):
     assert pool.lifts.size == 10
     assert pool.common == 6
-    latencies = np.asarray(pool.lifts.latency)
-    assert (latencies[: pool.common] == 10).all()
-    assert (latencies[pool.common :] != 10).any()
+    ages = np.asarray(pool.lifts.ages)
+    assert (ages[:, : pool.common] == 10).all()
+    assert (ages[:, pool.common :] != 10).any()
 
 
 def test_every_update_changes_the_weights(whole):
@@ -71,15 +73,15 @@ def test_a_batch_has_arms_as_varied_as_asked_for_and_noise_of_its_own(pool):
 
     first, half, last = (batch(varied) for varied in (0.0, 0.1, 0.2))
     for part in range(2):
-        assert np.allclose(first.variation[part], 1.0)
-        assert np.allclose(half.variation[part] ** 2, last.variation[part], rtol=1e-6)
-        assert float(np.log(last.variation[part]).std()) > 0.1
-    assert same(first.lifts.noise, last.lifts.noise)
-    other = batch(0.2, seed=1).lifts.noise
-    of_lifts = [set(map(bytes, np.asarray(each).T.copy())) for each in (last.lifts.noise, other)]
+        assert np.allclose(first.lifts.arms[part], 1.0)
+        assert np.allclose(half.lifts.arms[part] ** 2, last.lifts.arms[part], rtol=1e-6)
+        assert float(np.log(last.lifts.arms[part]).std()) > 0.1
+    assert np.array_equal(first.lifts.errors, last.lifts.errors)
+    seen = [each.lifts.errors[:, SEEN] for each in (last, batch(0.2, seed=1))]
+    of_lifts = [set(map(bytes, np.asarray(each).T.copy())) for each in seen]
     assert of_lifts[0].isdisjoint(of_lifts[1])
-    assert float(other.std()) == pytest.approx(MOCAP_NOISE, rel=0.05)
-    assert float(last.sensing.own.std()) == pytest.approx(TINY.encoders, rel=0.05)
+    assert float(seen[1].std()) == pytest.approx(MOCAP_NOISE, rel=0.05)
+    assert float(last.lifts.errors[:, OWN].std()) == pytest.approx(TINY.encoders, rel=0.05)
 
 
 class Telling(level_lesson.LevelLesson):
@@ -121,7 +123,7 @@ def test_an_interrupted_training_ends_with_the_same_policy(tmp_path, whole):
     with np.load(second.policy / "weights.npz") as stored:
         for name, array in whole[-1].learner.network._asdict().items():
             assert np.array_equal(stored[name], np.asarray(array)), name
-    assert [point.rmse_mm for point in second.curve] == [1.0, 1.0]
+    assert len(second.curve) == 2
     assert colift.evaluate(second.policy, isolation="none").rmse_mm < 30
 
 

@@ -7,6 +7,7 @@ from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.pairs import PairLesson, cross_play
 from colift.benchmark.training.touch_lesson import TouchLesson
 from colift.benchmark.twin.learning_person import LearningPerson
+from colift.benchmark.twin.rollout import rollout
 
 TINY = ApgSettings(task="intent", updates=1, lifts=4, batch=4, units=3)
 
@@ -28,7 +29,7 @@ def test_a_person_who_adds_nothing_is_the_benchmarks(task):
     lifts = PairLesson(lesson).draw(TINY)
 
     def played(person):
-        return np.asarray(lesson.twin.rmse_mm(yielding, None, lifts, None, person))
+        return np.asarray(rollout(lesson.twin, yielding, None, lifts, person=person).rmse_mm)
 
     def adding(share):
         def policy(memory, view):

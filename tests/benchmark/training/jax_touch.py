@@ -12,7 +12,7 @@ from colift.agents.tasks.touch.touch_law import TouchNetwork, touch_at_rest
 from colift.base.registry import TASKS, own_entries
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.suites.suite import Suite
-from colift.benchmark.training import apg, apg_course, validation
+from colift.benchmark.training import apg, apg_course, touch_lesson
 from colift.benchmark.training.apg_settings import NAME, ApgSettings
 from colift.benchmark.training.course import open_course
 from colift.benchmark.training.lesson import first_network
@@ -60,13 +60,13 @@ def test_the_manners_of_a_batch_are_drawn_anew_about_those_of_the_population(tas
         assert (drawn[0] != drawn[1]).all()
         assert max(trait.low - beyond, trait.least) <= drawn.min()
         assert drawn.max() <= min(trait.high + beyond, trait.most)
-    for name in ("gain", "tremor", "errors", "steps", "latency"):
+    for name in ("gain", "tremor", "errors", "steps", "ages"):
         assert np.array_equal(one[name], other[name])
 
 
 @pytest.mark.slow
 def test_a_training_ends_with_a_submission_that_plays_its_task(tmp_path, monkeypatch, whole):
-    monkeypatch.setattr(validation, "VALIDATION_SEEDS", VALIDATION_SEEDS[:2])
+    monkeypatch.setattr(touch_lesson, "VALIDATION_SEEDS", VALIDATION_SEEDS[:2])
     course = open_course(tmp_path, NAME, TINY, 0)
     apg_course.train_apg(TINY, course)
     learned = read_touch(course.policy / "weights.npz")

@@ -12,13 +12,15 @@ from colift.agents.tasks.agree.observation import AgreeObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.agree import negotiating
 from colift.benchmark.tasks.agree.task import Agree
+from colift.benchmark.twin.agents import play_agents
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import TABLE_LENGTH
 
-from .played import Played, agents_in_twin, engine_scores
+from .played import Played, engine_scores
 
-TWIN = TaskTwin(make_task("agree"))
+TWIN = TaskTwin(make_task("agree"), make_task("agree").person)
 
 PEOPLE = range(210_004, 210_006)
 """Seeds of people and lifts outside all suites."""
@@ -58,7 +60,7 @@ def played(policy):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(rollout(TWIN, policy, jnp.zeros(lifts.size), lifts).rmse_mm)
 
 
 def worst(twin, engine):
@@ -72,7 +74,7 @@ def worst(twin, engine):
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_touch([draw_touch(scenario, seed) for scenario, seed in LIFTS])
+    return draw_lifts(LIFTS)
 
 
 @pytest.mark.parametrize("policy", [leading(0.6), yielding], ids=["leading", "yielding"])
@@ -82,8 +84,8 @@ def test_each_lift_with_hurdles_is_that_of_the_engine(drawn, policy):
     assert worst(twin, engine) < 0.015
 
 
-def test_the_agent_that_infers_the_goal_plays_as_in_the_engine(drawn):
-    engine, twin = in_engine(AgreeGame), agents_in_twin(TWIN, AgreeGame, drawn)
+def test_the_agent_that_infers_the_goal_plays_as_in_the_engine():
+    engine, twin = in_engine(AgreeGame), play_agents(AgreeGame, LIFTS)
     assert abs(twin.mean() / engine.mean() - 1) < 0.01
 
 
@@ -92,7 +94,7 @@ def test_the_gradient_is_the_slope_where_nobody_decides_otherwise(drawn):
     @jax.jit
     @jax.value_and_grad
     def error(gain):
-        return TWIN.rmse_mm(leading(gain), jnp.zeros(drawn.size), drawn).mean()
+        return rollout(TWIN, leading(gain), jnp.zeros(drawn.size), drawn).rmse_mm.mean()
 
     low, high = (float(error(gain)[0]) for gain in (0.598, 0.602))
     assert float(error(0.6)[1]) == pytest.approx((high - low) / 0.004, rel=0.1)

@@ -13,13 +13,15 @@ from colift.agents.tasks.ball.observation import BallObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.ball import steering as steering_rule
 from colift.benchmark.tasks.ball.task import BALL
+from colift.benchmark.twin.agents import play_agents
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
-from .played import Played, agents_in_twin, engine_scores
+from .played import Played, engine_scores
 
-TWIN = TaskTwin(make_task("ball"))
+TWIN = TaskTwin(make_task("ball"), make_task("ball").person)
 
 PEOPLE = range(210_000, 210_004)
 """Seeds of people and lifts outside all suites."""
@@ -73,12 +75,12 @@ def played(policy):
 
 
 def in_twin(policy, lifts):
-    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(rollout(TWIN, policy, jnp.zeros(lifts.size), lifts).rmse_mm)
 
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_touch([draw_touch(scenario, seed) for scenario, seed in FEW])
+    return draw_lifts(FEW)
 
 
 @pytest.mark.parametrize("policy", [steering(0.15), yielding], ids=["steering", "yielding"])
@@ -91,8 +93,7 @@ def test_each_lift_with_a_ball_is_that_of_the_engine(drawn, policy):
 
 @pytest.mark.slow
 def test_an_agent_that_amplifies_differences_has_the_same_mean():
-    drawn = stack_touch([draw_touch(scenario, seed) for scenario, seed in MANY])
-    (engine, _), twin = in_engine(BallGame, MANY), agents_in_twin(TWIN, BallGame, drawn)
+    (engine, _), twin = in_engine(BallGame, MANY), play_agents(BallGame, MANY)
     assert abs(np.log(twin / engine).mean()) < 0.01
 
 
@@ -108,7 +109,7 @@ def test_the_gradient_is_the_slope_and_finite_where_the_ball_falls(drawn):
     @jax.value_and_grad
     def error(gain, following):
         policy = steering(gain, following)
-        return TWIN.rmse_mm(policy, jnp.zeros(drawn.size), drawn).mean()
+        return rollout(TWIN, policy, jnp.zeros(drawn.size), drawn).rmse_mm.mean()
 
     _, slope = error(0.15, 1.0)
     below, above = error(0.148, 1.0)[0], error(0.152, 1.0)[0]

@@ -3,21 +3,19 @@
 import dataclasses
 from contextlib import closing
 
-import jax.numpy as jnp
 import numpy as np
 import pytest
 from colift.agents.control.recurrent import shipped_network
 from colift.agents.control.recurrent_controller import RecurrentController
-from colift.base.errors import InputError
 from colift.benchmark.episode.conditions import Conditions
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.robust.suites import BEHAVIOURS, CONDITIONS
-from colift.benchmark.twin.conditioned_lifts import draw_conditioned, stack_conditioned
-from colift.benchmark.twin.conditioned_twin import conditioned_rmse_mm
-from colift.benchmark.twin.lifts import check_modelled, draw_lifts
-from colift.benchmark.twin.rollout import recurrent, rollout
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.policy import recurrent
+from colift.benchmark.twin.rollout import rollout
+from colift.benchmark.twin.task_twin import TaskTwin
 
 PEOPLE = (210_020, 210_021)
 CLOSE = 0.015
@@ -36,9 +34,9 @@ def in_engine(scene, seed):
 
 
 def in_twin(lifts):
-    drawn = stack_conditioned([draw_conditioned(*each) for each in lifts])
+    twin, drawn = TaskTwin.of([scene for scene, _ in lifts]), draw_lifts(lifts)
     policy, memory = recurrent(NETWORK, drawn.size)
-    return np.asarray(conditioned_rmse_mm(policy, memory, drawn))
+    return np.asarray(rollout(twin, policy, memory, drawn).rmse_mm)
 
 
 def test_each_lift_has_the_error_of_the_engine():
@@ -66,21 +64,15 @@ def test_each_condition_matters_and_has_the_effect_that_it_has_in_the_engine(ran
     assert abs(engine / in_engine(*plain) - 1) > least
 
 
-def test_without_conditions_a_lift_is_that_of_the_usual_twin():
+def test_a_lift_without_conditions_is_the_same_beside_one_with_them():
+    """Beside it, people may slow down, and arms vary: rounded otherwise, a hand is elsewhere."""
     lift = (make_scenario("pause", "draw-190001"), 190_001)
-    policy, memory = recurrent(NETWORK, 1)
-    usual = rollout(policy, memory, draw_lifts([lift])).rmse_mm
-    # Arms that may vary are rounded otherwise, and a hand takes another row of its path.
-    assert in_twin([lift]) == pytest.approx(np.asarray(usual), rel=1e-3)
+    both = in_twin([lift, (scenario("follow", PEOPLE[0]), 0)])
+    assert in_twin([lift])[0] == pytest.approx(both[0], rel=1e-3)
 
 
 def test_a_robot_that_never_moves_keeps_a_patient_person_waiting_here_too():
-    drawn = stack_conditioned([draw_conditioned(scenario("follow", PEOPLE[0]), 0)])
-    held = conditioned_rmse_mm(lambda memory, view: (memory, 0.0 * view[0]), jnp.zeros(1), drawn)
-    assert float(held[0]) > 100
-
-
-def test_the_usual_twin_refuses_what_it_does_not_model():
-    for scene in (scenario("dip", 1), make_scenario("follow")):
-        with pytest.raises(InputError, match="the twin with conditions"):
-            check_modelled(scene)
+    lifts = [(scenario("follow", PEOPLE[0]), 0)]
+    twin = TaskTwin.of([scene for scene, _ in lifts])
+    held = rollout(twin, lambda memory, view: (memory, 0.0 * view[0]), None, draw_lifts(lifts))
+    assert float(held.rmse_mm[0]) > 100

@@ -9,13 +9,14 @@ import pytest
 from colift.agents.tasks.touch.observation import HapticObservation as Seen
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.twin import haptic_plant
+from colift.benchmark.twin.drawing import draw_lifts
+from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
-from colift.benchmark.twin.touch_lifts import draw_touch, stack_touch
 from colift.benchmark.world.table import TABLE_LENGTH
 
 from .played import Played, engine_scores
 
-TWIN = TaskTwin(make_task("intent"))
+TWIN = TaskTwin(make_task("intent"), make_task("intent").person)
 
 PEOPLE = (210_000, 210_001)
 """Seeds of people and lifts outside all suites."""
@@ -45,11 +46,11 @@ def in_engine(policy):
 
 @pytest.fixture(scope="module")
 def drawn():
-    return stack_touch([draw_touch(scenario, seed) for scenario, seed in LIFTS])
+    return draw_lifts(LIFTS)
 
 
 def in_twin(policy, lifts):
-    return np.asarray(TWIN.rmse_mm(policy, jnp.zeros(lifts.size), lifts))
+    return np.asarray(rollout(TWIN, policy, jnp.zeros(lifts.size), lifts).rmse_mm)
 
 
 @pytest.mark.parametrize("policy", [yielding, level])

@@ -13,7 +13,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.ball.person import Steers
 from colift.benchmark.twin.agreement import CLOSE, largest_difference
-from colift.benchmark.twin.touch_lifts import draw_touch
+from colift.benchmark.twin.drawing import draw_lift
 
 WITH_RULES = [name for name in own_entries(TASKS) if make_task(name).touch]
 
@@ -34,14 +34,13 @@ def test_other_periods_have_them_too(name, period):
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"task": "level"}, "models tasks that are stated by rules .*'level' is not"),
-        ({"task": "ball", "partner": "human"}, "the twin of 'ball' models a NAO, not 'human'"),
-        ({"task": "agree", "latency": 0.3}, "keeps 25 frames of the past"),
+        ({"task": "ball", "partner": "human"}, "the twin of 'ball' models 'nao', not 'human'"),
+        ({"partner": "iiwa"}, "the twin of 'level' models 'nao' or 'human', not 'iiwa'"),
     ],
 )
 def test_what_the_twin_does_not_model_is_refused(settings, message):
     with pytest.raises(InputError, match=message):
-        draw_touch(make_scenario("smooth", **settings), 0)
+        draw_lift(make_scenario("smooth", **settings), 0)
 
 
 class Deciding(Steers):

@@ -8,8 +8,10 @@ import pytest
 from colift.agents.agent import FRAME
 from colift.agents.humans import SUBJECTS
 from colift.benchmark.episode.seat import body_parameters
-from colift.benchmark.world import Ball, BulletWorld, NaoFarEnd, since_reset
-from colift.benchmark.world.ball import ROLLING, TableMotion
+from colift.benchmark.world.ball import ROLLING, Ball, TableMotion
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.interface import since_reset
+from colift.benchmark.world.nao_end import NaoFarEnd
 from colift.benchmark.world.table import GRAVITY, TABLE_LENGTH
 
 STILL = TableMotion(pitch=0.0, pitch_rate=0.0, turn=0.0, rise=0.0, push=0.0)

@@ -6,7 +6,7 @@ import sys
 WORLDS = """
 import os, threading
 
-from colift.benchmark.world import PHYSICS
+from colift.benchmark.world.physics import PHYSICS
 from colift.benchmark.world.engine import disconnect, new_client
 
 def make():

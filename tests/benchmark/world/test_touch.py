@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from colift.agents.humans import SECOND_PERSON, SUBJECTS
 from colift.benchmark.episode.seat import body_parameters
-from colift.benchmark.world import Ball, BulletWorld, HumanFarEnd, NaoFarEnd
+from colift.benchmark.world.ball import Ball
+from colift.benchmark.world.bullet_world import BulletWorld
+from colift.benchmark.world.nao_end import NaoFarEnd
+from colift.benchmark.world.second_human import HumanFarEnd
 from colift.benchmark.world.table import (
     FAR_GRIP_DAMPING,
     FAR_GRIP_STIFFNESS,

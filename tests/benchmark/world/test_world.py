@@ -7,17 +7,14 @@ import numpy as np
 import pytest
 from colift.agents.actions import HAND_SPEED
 from colift.agents.agent import FRAME
-from colift.benchmark.world import (
-    BodyParameters,
-    BulletWorld,
-    HumanFarEnd,
-    NaoFarEnd,
-    Physics,
-    Servo,
-    since_reset,
-)
+from colift.benchmark.world.bullet_world import BulletWorld
 from colift.benchmark.world.engine import DIRECT
-from colift.benchmark.world.human_body import REFLEX_LIMIT
+from colift.benchmark.world.human_body import REFLEX_LIMIT, BodyParameters
+from colift.benchmark.world.interface import since_reset
+from colift.benchmark.world.nao_end import NaoFarEnd
+from colift.benchmark.world.physics import Physics
+from colift.benchmark.world.second_human import HumanFarEnd
+from colift.benchmark.world.servo import Servo
 from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_STIFFNESS,

@@ -1,6 +1,7 @@
 """A board to back up."""
 
 import pytest
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.queue.attendance import sign_in
@@ -22,7 +23,7 @@ def filled(board, write_submission):
         bundle = board.store.bundle("1", digest(name))
         bundle.mkdir(parents=True)
         (bundle / "results.json").write_text(name)
-    board.withdraw("1", digest("one"), "Ada", "a mistake")
+    Decisions(board).withdraw("1", digest("one"), "Ada", "a mistake")
     board.new_season("2")
     board.standings("1")
     return board

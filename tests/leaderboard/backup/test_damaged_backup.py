@@ -13,6 +13,7 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.leaderboard.backup.restoring import restore
 from colift.leaderboard.backup.writing import back_up
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.pages.site import write_site
 from colift.leaderboard.queue import Queue, WorkerQueue
@@ -153,7 +154,7 @@ def board_file(tmp_path_factory):
     job = Queue(board).enqueue(board.keep(place / "mine"), "ada")
     board.store.add_to_log(job.id, "a line")
     WorkerQueue(board).claim("host/machine/1/2")
-    board.withdraw("1", digest("one"), "Ada", "a mistake")
+    Decisions(board).withdraw("1", digest("one"), "Ada", "a mistake")
     human = ScoreTable(strata=(("pause", "S1"),) * 12, values={"rmse_mm": (5.0,) * 12})
     board.store.secrets("1").keep_human_human(human)
     board.new_season("2")

@@ -8,6 +8,7 @@ import sqlalchemy as sa
 from colift.base.errors import InputError
 from colift.benchmark.statistics import decisive
 from colift.benchmark.suites.suite import make_suite
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.seasons import ImportedSeason
 from colift.leaderboard.core.standings import columns
 from colift.leaderboard.records.season import PlayedEntry, Season, SeasonInfo
@@ -84,7 +85,7 @@ def test_what_was_refused_has_an_entry_and_no_place_in_the_table(board):
     assert board.standings() == ()
     assert board.entry("1", digest("bad")) == entry
     with pytest.raises(InputError, match="no row of submission"):
-        board.withdraw("1", digest("bad"), "Ada", "mine")
+        Decisions(board).withdraw("1", digest("bad"), "Ada", "mine")
 
 
 @pytest.mark.parametrize("take_out", ["withdraw", "remove"])
@@ -92,13 +93,13 @@ def test_a_row_that_is_taken_out_stays_to_be_seen_with_the_reason(board, clock, 
     for name, mean in (("a", 10.0), ("b", 15.0), ("c", 20.0)):
         add(board, name, mean)
     clock.turn(days=1)
-    getattr(board, take_out)("1", digest("a"), "Grace", "it read the clock")
+    getattr(Decisions(board), take_out)("1", digest("a"), "Grace", "it read the clock")
     assert ranks(board) == [(1, "b"), (2, "c"), (0, "a")]
     (event,) = board.standings()[-1].events
     assert (event.at, event.who, event.why) == (clock.now, "Grace", "it read the clock")
     assert board.events(submission=digest("a")) == (event,)
     assert list(board.ranking()["name"]) == ["b", "c"]
-    board.reinstate("1", digest("a"), "Grace", "it did not")
+    Decisions(board).reinstate("1", digest("a"), "Grace", "it did not")
     assert ranks(board) == [(1, "a"), (2, "b"), (3, "c")]
     assert len(board.standings()[0].events) == 2
 
@@ -107,7 +108,7 @@ def test_a_rescore_changes_the_table_and_not_the_entry(board):
     entry = add(board, "a", 10.0)
     add(board, "b", 15.0)
     right = rescored(entry.row, 18.0)
-    board.rescore("1", right, make_errors(18.0), "Grace", "a sensor was upside down")
+    Decisions(board).rescore("1", right, make_errors(18.0), "Grace", "a sensor was upside down")
     assert ranks(board) == [(1, "b"), (2, "a")]
     assert board.standings()[1].row == right
     assert board.entry("1", digest("a")) == entry

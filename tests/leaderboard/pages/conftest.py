@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.seasons import ImportedSeason
 from colift.leaderboard.evaluation.evaluate import play_season_references
 from colift.leaderboard.pages.site import write_site
@@ -51,7 +52,7 @@ def kept(played: ImportedSeason, once: Callable[..., Path]) -> Path:
         board = Board.open(place / "board", "quick-v1")
         board.import_season(renamed(played, "2025", BEGAN - timedelta(days=300)))
         board.import_season(played)
-        board.withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
+        Decisions(board).withdraw("2025", digest("hold"), "Ada", "it <i>never</i> moved")
         write_site(board, place / "site")
         board.close()
 

@@ -12,6 +12,7 @@ import pytest
 import sqlalchemy as sa
 from colift.benchmark.bundle.files import RESULTS
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
@@ -174,7 +175,7 @@ def test_a_table_is_read_once_for_each_change(board, played, rows_read):
     for _ in range(5):
         assert board_page(board)["total"] == MANY + 1
     assert len(rows_read) == first + 1
-    board.withdraw("1", digest(name(2 * MANY)), "Ada", "a copy")
+    Decisions(board).withdraw("1", digest(name(2 * MANY)), "Ada", "a copy")
     assert board_page(board)["total"] == MANY
     board.close()
 

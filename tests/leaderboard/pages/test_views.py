@@ -8,6 +8,7 @@ from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.database.queries import record_entry
 from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
@@ -144,7 +145,7 @@ def test_a_policy_that_failed_in_every_lift_says_why_once(tmp_path):
     add(board, "ruin", 250.0)
     row = make_row("ruin", 250.0)
     ruined = dataclasses.replace(row, public=dataclasses.replace(row.public, failed=12))
-    board.rescore("1", ruined, (250.0,) * 12, who="Ada", why="it never lifted")
+    Decisions(board).rescore("1", ruined, (250.0,) * 12, who="Ada", why="it never lifted")
     bundle = board.store.bundle("1", row.submission)
     bundle.mkdir(parents=True)
     lines = [f"smooth,S1,{seed},250.0,step 0: TypeError" for seed in range(11)]

@@ -11,6 +11,7 @@ from datetime import timedelta
 import pytest
 from colift.agents.sandbox.host import levels
 from colift.base.errors import EvaluatorFault, InputError
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.evaluation.progress import BudgetError, Callbacks
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from colift.leaderboard.queue import worker as module
@@ -77,7 +78,7 @@ def test_a_row_is_evaluated_again_and_its_entry_stays(board, queue, write_submis
     worker.once()
     before, entry = board.standings()[0].row, board.entry("1", job.submission)
     ruined = replace(before, description="made on a busy machine")
-    board.rescore("1", ruined, (99.0, 99.0), "Grace", "to be undone")
+    Decisions(board).rescore("1", ruined, (99.0, 99.0), "Grace", "to be undone")
     (board.bundle("1", job.submission) / "episodes.csv").unlink()
     new = worker.rescore("1", job.submission, "Grace", "the machine was busy")
     (standing,) = board.standings()

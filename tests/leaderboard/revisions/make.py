@@ -11,6 +11,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.tokens import Tokens
 from colift.leaderboard.database.connection import FILE
 from colift.leaderboard.database.migration import HEAD
@@ -34,7 +35,7 @@ def fill(folder: Path, url: str | None) -> None:
     board = Board.open(folder / "board", "quick-v1", url=url, clock=lambda: BEGAN)
     for name, mean in (("mine", 10.0), ("yours", 12.5)):
         add(board, name, mean)
-    board.remove("1", digest("yours"), "local", "a mistake")
+    Decisions(board).remove("1", digest("yours"), "local", "a mistake")
     Tokens(board).add("ada")
     for name in ("first", "second"):
         write_signed(folder / name)

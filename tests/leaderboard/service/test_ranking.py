@@ -5,6 +5,7 @@ import time
 
 import pytest
 from colift.leaderboard.core import ranks
+from colift.leaderboard.core.decisions import Decisions
 
 from ... import web
 from ..rows import add, digest
@@ -99,7 +100,8 @@ def test_a_row_that_was_rescored_waits_for_its_new_rank(tmp_path, opening):
         entry = add(board, "a", 10.0)
         add(board, "b", 15.0)
         board.standings()
-        board.rescore("1", rescored(entry.row, 18.0), make_errors(18.0), "Ada", "a mistake")
+        right = rescored(entry.row, 18.0)
+        Decisions(board).rescore("1", right, make_errors(18.0), "Ada", "a mistake")
         table = board.tables.read("1")
         told = [(each.row.name, each.rank, each.pending) for each in table.rows]
         assert not table.current

@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import schemathesis
 from colift.benchmark.verification import verify
+from colift.leaderboard.core.decisions import Decisions
 
 pytestmark = pytest.mark.slow
 
@@ -122,7 +123,7 @@ def test_the_table_can_be_read_by_pandas_and_starts_no_formula(client, done):
 
 def test_a_withdrawn_row_stays_to_be_seen(client, folder, opening, done, place):
     with opening(folder) as board:
-        board.withdraw(done["season"], done["submission"], "ada", "a mistake")
+        Decisions(board).withdraw(done["season"], done["submission"], "ada", "a mistake")
     try:
         (standing,) = client.get("/api/v1/standings").json()
         assert standing["rank"] == 0
@@ -131,7 +132,7 @@ def test_a_withdrawn_row_stays_to_be_seen(client, folder, opening, done, place):
         assert client.get(place).json()["events"] == [event]
     finally:
         with opening(folder) as board:
-            board.reinstate(done["season"], done["submission"], "ada", "none after all")
+            Decisions(board).reinstate(done["season"], done["submission"], "ada", "none after all")
     assert client.get("/api/v1/standings").json()[0]["rank"] == 1
 
 

@@ -25,6 +25,15 @@ COUNT = 2e-4
 BUSY = "for (const end = performance.now() + 60; performance.now() < end; );"
 """Work of a page's own, during which the events of the mouse gather."""
 
+WATCHED = """() => {
+    const lift = document.getElementById("lift");
+    window.offers = [];
+    new MutationObserver(() => {
+        if (!lift.hidden) window.offers.push(coliftPlay.page.lifting.lift);
+    }).observe(lift, { attributes: true, attributeFilter: ["hidden"] });
+}"""
+"""Notes the lift that is still shown, or null, whenever the button offers the next one."""
+
 
 def test_a_lift_by_mouse_from_the_click_to_the_replay(url, sessions):
     """Nothing of the mouse's way is lost, the table follows, and all is on disk in the end."""
@@ -67,6 +76,7 @@ async def lifted(url: str) -> tuple[Hand, list[float]]:
         await page.locator('input[name="partner"][value="copy"]').check()
         await page.get_by_label("I agree").check()
         await page.get_by_role("button", name="To the table").click()
+        await page.evaluate(WATCHED)
         for _ in range(TRIES):
             way = await one_lift(page, hand)
             ended = page.locator("#result, #lift").locator("visible=true")
@@ -133,6 +143,9 @@ async def look(page: Page) -> float | None:
 async def looked_at(page: Page) -> None:
     """Check what is shown when the lift is over."""
     await expect(page.locator("#result")).to_be_visible(timeout=WAIT_MS)
+    offers = await page.evaluate("window.offers")
+    assert offers
+    assert set(offers) == {None}  # The next lift is offered with the score, not before.
     assert await page.evaluate("document.pointerLockElement") is None
     score = await page.locator("[data-part=score]").inner_text()
     goals = await page.locator("[data-part=goals]").inner_text()

@@ -26,8 +26,7 @@ from colift.benchmark.tasks.ball.steering import (
     steer,
 )
 from colift.benchmark.tasks.ball.task import Places
-from colift.benchmark.world import Ball
-from colift.benchmark.world.ball import ROLLING
+from colift.benchmark.world.ball import ROLLING, Ball
 from colift.benchmark.world.table import (
     GRAVITY,
     GRIP_STIFFNESS,

@@ -1,0 +1,98 @@
+"""Many lifts from drawn ones: what is cheap to draw is drawn anew, for all of them at once.
+
+A lift of a seed takes the host about a millisecond, most of it for the plan. Here a plan and its
+person's body are used again, with other noise of the hand, other errors of the robot's senses and
+another manner: another lift, in some ten microseconds. Its distribution is that of
+:func:`.draw_lift`, with the given plans instead of all.
+"""
+
+import math
+from functools import partial
+
+import jax
+import jax.numpy as jnp
+from colift.agents.agent import FRAME
+from colift.agents.humans.hand import KERNEL
+from colift.agents.senses import SIGHT, TOUCH, Sense
+from colift.base.errors import InputError
+from colift.benchmark.twin.lifts import Lifts, some
+from colift.benchmark.twin.people import with_new_manners
+from colift.benchmark.twin.task_twin import TaskTwin
+
+
+def many_lifts(twin: TaskTwin, lifts: Lifts, count: int, key: jax.Array) -> Lifts:
+    """Return lifts with the plans of drawn ones in turn, and all else drawn anew.
+
+    Parameters
+    ----------
+    twin
+        The rules of the lifts.
+    lifts
+        The drawn lifts, without conditions.
+    count
+        Number of lifts to return.
+    key
+        Draws them.
+
+    Raises
+    ------
+    InputError
+        If the lifts have drawn conditions: errors and ages of samples then belong together.
+    """
+    if lifts.arms is not None:
+        raise InputError("lifts with drawn conditions are drawn one by one")
+    drawn: Lifts = _many(twin, lifts, count, key)
+    return drawn
+
+
+@partial(jax.jit, static_argnums=(0, 2))
+def _many(twin: TaskTwin, lifts: Lifts, count: int, key: jax.Array) -> Lifts:
+    gain, phase, errors, manner = jax.random.split(key, 4)
+    found = some(lifts, jnp.arange(count) % lifts.size)
+    senses = (*SIGHT, *(TOUCH if twin.task.touch else ()), *twin.task.senses)
+    found = found._replace(
+        gain=found.hand.motor_noise * hand_noise(gain, found),
+        tremor=tremor(phase, found),
+        errors=sensor_errors(errors, senses, found.longest, count),
+    )
+    return with_new_manners(twin.person, found, manner, 0.0)
+
+
+def hand_noise(key: jax.Array, lifts: Lifts) -> jax.Array:
+    """Return smooth noise of unit variance (s, f, n); see :class:`.NoiseStream`."""
+    frames = lifts.longest * lifts.frames
+    white = jax.random.normal(key, (frames + len(KERNEL) - 1, lifts.size))
+    return smoothed(white).reshape(lifts.longest, lifts.frames, lifts.size)
+
+
+def smoothed(white: jax.Array) -> jax.Array:
+    """Return the weighted means of successive numbers along the first axis."""
+    frames = len(white) - len(KERNEL) + 1
+    weighted = (weight * white[i : i + frames] for i, weight in enumerate(KERNEL.tolist()))
+    return jnp.asarray(sum(weighted))
+
+
+def tremor(key: jax.Array, lifts: Lifts) -> jax.Array:
+    """Return the tremor of the hands (s, f, n) [m]: sines of random phase."""
+    phase = 2 * math.pi * jax.random.uniform(key, (lifts.size,))
+    omega = 2 * math.pi * lifts.hand.tremor_frequency
+    time = FRAME * jnp.arange(lifts.longest * lifts.frames).reshape(-1, lifts.frames, 1)
+    return jnp.asarray(lifts.hand.tremor_amplitude * jnp.sin(omega * time + phase))
+
+
+def sensor_errors(key: jax.Array, senses: tuple[Sense, ...], steps: int, count: int) -> jax.Array:
+    """Return the errors of a robot's senses (s, k, n); see :func:`.drawn_errors`.
+
+    Senses whose errors have one role have the same ones, each in its own size.
+    """
+    roles = [each.role or each.name for each in senses if each.noise]
+    drawn = jax.random.normal(key, (steps, len({*roles}), count))
+    places = {role: place for place, role in enumerate(dict.fromkeys(roles))}
+    zero = jnp.zeros((steps, count))
+    return jnp.stack(
+        [
+            each.noise * drawn[:, places[each.role or each.name]] if each.noise else zero
+            for each in senses
+        ],
+        axis=1,
+    )

@@ -1,0 +1,1 @@
+"""The twin as an environment of pure functions, for one lift, or for many by ``jax.vmap``."""

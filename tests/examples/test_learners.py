@@ -1,0 +1,56 @@
+"""The learners of ``examples/learners``: each writes a submission that plays its task."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import colift
+import pytest
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.suite import Suite
+
+HERE = Path(__file__).parents[2] / "examples" / "learners"
+
+pytestmark = pytest.mark.slow
+
+
+def learned(folder, name, *arguments):
+    """Run a learner that writes its policy into a new folder, and return this folder."""
+    command = [sys.executable, str(HERE / name), *arguments, "--out", "made"]
+    flags = "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0"
+    quick = {**os.environ, "XLA_FLAGS": flags}
+    done = subprocess.run(command, cwd=folder, env=quick, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith(": made\n")
+    return folder / "made"
+
+
+def error(made, behaviour, task):
+    """Return the RMSE of a policy in one lift [mm]."""
+    scenario = make_scenario(behaviour, "draw-100000", task=task)
+    suite = Suite(name="one", scenarios=(scenario,), seeds=(0,))
+    return colift.evaluate(made, suite, isolation="none").rmse_mm
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "task", "behaviour"),
+    [
+        ("ppo.py", ("--steps", "1"), "level", "smooth"),
+        ("mappo.py", ("--steps", "1", "--critic", "own"), "level", "smooth"),
+        ("mappo.py", ("--steps", "1", "--critic", "all"), "intent", "pivot"),
+        ("fcp.py", ("--steps", "1", "--pairs", "1"), "level", "smooth"),
+        ("sac.py", ("--steps", "20000"), "intent", "pivot"),
+    ],
+)
+def test_a_learner_on_the_twin(tmp_path, name, arguments, task, behaviour):
+    made = learned(tmp_path, name, *arguments, "--task", task)
+    assert 0 < error(made, behaviour, task) < 250
+
+
+@pytest.mark.parametrize("method", ["bc", "iql"])
+def test_a_learner_from_data(tmp_path, method):
+    export = [sys.executable, "-m", "colift", "export", "--set", "expert", "--lifts", "30"]
+    subprocess.run([*export, "--out", "data"], cwd=tmp_path, check=True, capture_output=True)
+    made = learned(tmp_path, "offline.py", "data", "--method", method, "--updates", "50")
+    assert 0 < error(made, "smooth", "level") < 100
