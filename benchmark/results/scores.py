@@ -69,26 +69,32 @@ class ScoreTable:
         """Return the scores of episodes that come with their places, in any order; none is kept."""
         metrics, people = suite.metrics, _people(suite)
         known: dict[Stratum, Stratum] = {}
-        rows: dict[int, tuple[Stratum, str, str | None, array[float]]] = {}
+        places, arrived = array("q"), {name: array("d") for name in metrics}
+        strata: list[Stratum] = []
+        persons: list[str] = []
+        failures: list[str | None] = []
         for place, each in lifts:
-            where = stratum(each)
-            who = people.get((*where, each.trial), each.subject)
-            scores = array("d", (each.scores[name] for name in metrics))
-            rows[place] = known.setdefault(where, where), who, each.failure, scores
-        in_order = [rows[place] for place in sorted(rows)]
+            where = known.setdefault(stratum(each), stratum(each))
+            places.append(place)
+            strata.append(where)
+            persons.append(people.get((*where, each.trial), each.subject))
+            failures.append(each.failure)
+            for name, column in arrived.items():
+                column.append(each.scores[name])
+        order = sorted(range(len(places)), key=places.__getitem__)
+        strata, persons = [strata[i] for i in order], [persons[i] for i in order]
         values = {
-            name: array("d", (scores[i] for _, _, _, scores in in_order))
-            for i, name in enumerate(metrics)
+            name: array("d", map(column.__getitem__, order)) for name, column in arrived.items()
         }
-        named = all(who == subject for (_, subject), who, _, _ in in_order)
+        named = all(who == subject for (_, subject), who in zip(strata, persons, strict=True))
         return cls(
-            strata=tuple(where for where, _, _, _ in in_order),
-            people=() if named else tuple(who for _, who, _, _ in in_order),
+            strata=tuple(strata),
+            people=() if named else tuple(persons),
             values=values,
             means={
                 each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
             },
-            failures=tuple(failure for _, _, failure, _ in in_order),
+            failures=tuple(failures[i] for i in order),
             gentle=tuple(each.name for each in gentle(metrics)),
         )
 
