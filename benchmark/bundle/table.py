@@ -75,14 +75,16 @@ def dump_table(
 
     Arguments are as for :func:`table_row`.
     """
-    text = io.StringIO()
+    data = io.BytesIO()
+    text = io.TextIOWrapper(data, "utf-8", newline="")  # A long table is there once, as bytes.
     names = column_names(metrics, recorded=bool(played))
     writer = csv.DictWriter(text, fieldnames=names, lineterminator="\n")
     writer.writeheader()
     for episode in episodes:
         row = table_row(episode, metrics, played)
         writer.writerow({name: _field(value) for name, value in row.items()})
-    return text.getvalue().encode()
+    text.flush()
+    return data.getvalue()
 
 
 def _field(value: object) -> object:
