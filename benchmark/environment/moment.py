@@ -1,5 +1,6 @@
 """A moment of an episode, to which an environment can return."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from colift.agents.agent import Agent
@@ -17,15 +18,28 @@ class Moment(NamedTuple):
     """The human's and the robot's action in each step."""
 
 
-def check_same_settings(moment: Moment, scenario: Scenario) -> None:
-    """Check that a moment is of an environment with the settings of a scenario.
+def check_same_settings(moment: Moment, scenarios: Sequence[Scenario], *, new_people: bool) -> None:
+    """Check that a moment is of an environment with some scenarios.
+
+    Parameters
+    ----------
+    moment
+        The moment.
+    scenarios
+        All scenarios of the environment, which differ in their behaviour alone.
+    new_people
+        Whether each lift has a new person.
 
     Raises
     ------
     InputError
         If it is not; the message names the first difference.
     """
-    of_moment, here = _settings(moment.scenario), _settings(scenario)
+    there = moment.scenario
+    same = [each for each in scenarios if each.behaviour == there.behaviour]
+    of_moment, here = _settings(there), _settings((same or scenarios)[0])
+    if new_people:
+        here["subject"] = of_moment["subject"]
     for name, value in here.items():
         if of_moment[name] != value:
             raise InputError(
@@ -37,6 +51,8 @@ def check_same_settings(moment: Moment, scenario: Scenario) -> None:
 def _settings(scenario: Scenario) -> dict[str, object]:
     return {
         "task": scenario.task.name,
+        "behaviour": scenario.behaviour,
+        "subject": scenario.subject.name,
         "partner": scenario.partner,
         "control_period": scenario.control_period,
         "latency": scenario.latency,

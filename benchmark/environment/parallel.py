@@ -209,7 +209,8 @@ class ParallelLift(ParallelEnv[str, Observation, Action]):
             If the environment is closed.
         """
         self._check_open()
-        check_same_settings(moment, self.lift.scenario)
+        drawing = self._drawing or Drawing(scenarios=(self.lift.scenario,), new_people=False)
+        check_same_settings(moment, drawing.scenarios, new_people=drawing.new_people)
         if moment.scenario is not self.lift.scenario:
             self.lift = lift_after(self.lift, moment.scenario)
         self._human = bring_to(self.lift, moment)

@@ -60,13 +60,13 @@ def score_rewards(lift: Lift) -> tuple[float, float]:
     In a task that is stated by rules (:class:`.Touch`) both get what the step adds to the square
     of the score, times K; an unfinished plan costs at the end. See :func:`.known_squares`.
     """
-    if isinstance(lift.task, Touch):
-        size, done = lift.frames_per_step, lift.done
+    world, task, size = lift.world, lift.task, lift.frames_per_step
+    if isinstance(task, Touch):
+        done = lift.done
         after = _whole_square(lift) if done else _known_square(lift, lift.frame)
         added = after - _known_square(lift, lift.frame - size)
         reward = -added * lift.horizon / size / UNIT
         return reward, reward
-    world, task, size = lift.world, lift.task, lift.frames_per_step
     human = np.array(world.human_end[-size:])
     target = lift.target[lift.frame - size : lift.frame]
     if isinstance(task, Scored):

@@ -1,9 +1,9 @@
 """Many lifts from drawn ones: what is cheap to draw is drawn anew, for all of them at once.
 
-A lift of a seed takes the host about a millisecond, most of it for the plan. Here a plan and its
-person's body are used again, with other noise of the hand, other errors of the robot's senses and
-another manner: another lift, in some ten microseconds. Its distribution is that of
-:func:`.draw_lift`, with the given plans instead of all.
+A lift of a seed takes the host long, most of it for the plan (``colift bench --twin`` compares).
+Here a plan and its person's body are used again, with other noise of the hand, other errors of the
+robot's senses and another manner. The distribution is that of :func:`.draw_lift`, with the given
+plans instead of all.
 """
 
 import math
