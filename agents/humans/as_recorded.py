@@ -11,6 +11,7 @@ from colift.agents.humans.recorded import Recorded, by_speed
 from colift.agents.humans.recordings import Recording
 from colift.agents.humans.shape import Shape, shape_of
 from colift.agents.humans.subject import Subject
+from numpy.typing import NDArray
 
 UNCHANGED: Final = 1.0
 """Factor of heights and duration."""
@@ -53,13 +54,13 @@ class ExactHand:
         return observation[HumanObservation.TARGET].copy()
 
 
-def recorded_frames(recording: Recording, plan: Plan) -> slice:
-    """Return the frames in which a plan of :class:`AsRecorded` has the recording.
+def recorded_times(recording: Recording, plan: Plan) -> tuple[int, NDArray[np.float64]]:
+    """Return the first frame in which a plan of :class:`AsRecorded` plays the recording, and times.
 
-    The rests, and the return from the last height, are outside.
+    They are the recorded time in each of these frames [s], from the first sample. Rests, and the
+    return from the last height, are outside.
     """
-    start = plan.events[1][1]
-    return slice(start, start + _shape(recording).frames(UNCHANGED))
+    return plan.events[1][1], _shape(recording).times(UNCHANGED)
 
 
 def heights_of(recording: Recording) -> tuple[float, float]:

@@ -82,6 +82,20 @@ def read_rows(path: Path) -> Iterator[Row]:
         raise InputError(f"{path}, line {reader.line_num}: not a CSV file: {error}") from None
 
 
+def other_columns(path: Path) -> list[str]:
+    """Return the names of the columns that are not read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    text = decoded(read_bytes(path, LARGEST), str(path))
+    rows = csv.reader(io.StringIO(text, newline=""))
+    header = next((row for row in rows if any(map(str.strip, row))), [])
+    return [name.strip() for name in header if name.strip() and name.strip() not in ALL]
+
+
 def _row(line: int, fields: Mapping[str, str], where: str) -> Row:
     trial, time, height = COLUMNS
     if not fields.get(trial):

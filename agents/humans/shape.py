@@ -66,10 +66,24 @@ class Shape:
         steepest = float(np.abs(np.diff(self.control)).max()) / self.knot
         return max(self.scale * steepest / FASTEST, 1.0)
 
-    def frames(self, slow_down: float) -> int:
-        """Return the number of frames in which the recording is played, its ramps included."""
+    def times(self, slow_down: float) -> NDArray[np.float64]:
+        """Return the recorded time in each frame in which it is played [s], from the first sample.
+
+        Its pace is 0 at both ends, and ``1 / slow_down`` beyond the ramps of :data:`.EASE`.
+        """
+        return self.knot * self._knots(slow_down)
+
+    def _knots(self, slow_down: float) -> NDArray[np.float64]:
+        """Return the recorded time in each frame in which it is played, in knots."""
         full_pace = int(np.ceil(self.duration * slow_down / FRAME))
-        return full_pace + min(round(EASE / FRAME), full_pace)
+        ease = min(round(EASE / FRAME), full_pace)
+        ramp = profile(np.arange(1, ease + 1) / ease)
+        pace = np.ones(full_pace + ease)
+        pace[:ease] = ramp
+        pace[-ease:] = ramp[::-1]
+        time: NDArray[np.float64] = pace.cumsum()
+        time *= self.duration / (self.knot * time[-1])
+        return time
 
     def played(self, scale: float, slow_down: float) -> NDArray[np.float64]:
         """Return the movement at 100 Hz, from height 0 and back to it [m].
@@ -82,19 +96,12 @@ class Shape:
         scale, slow_down
             Factors of the heights and of the duration.
         """
-        frames = self.frames(slow_down)
-        ease = min(round(EASE / FRAME), frames // 2)
-        ramp = profile(np.arange(1, ease + 1) / ease)
-        pace = np.ones(frames)
-        pace[:ease] = ramp
-        pace[-ease:] = ramp[::-1]
-        time = pace.cumsum()
-        time *= self.duration / (self.knot * time[-1])
+        time = self._knots(slow_down)
         lift = scale * _spline(self.control - self.heights(2)[0], time)
         end = float(lift[-1])
         shortest, speed = RETURN
         back = stroke(-end, max(shortest, 1.875 * abs(end) / speed))[0]
-        overlap = ease // 2
+        overlap = min(round(EASE / FRAME), len(lift) // 2) // 2
         whole = np.concatenate((lift, np.full(len(back) - overlap, end)))
         whole[len(lift) - overlap :] += back
         return whole

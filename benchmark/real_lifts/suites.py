@@ -91,6 +91,17 @@ def _reasons(left_out: Mapping[str, str]) -> str:
     )
 
 
+def beyond(recordings: Sequence[Recording], room: tuple[float, float]) -> dict[str, str]:
+    """Return in words, by trial, which recordings leave a range of heights above the start [m]."""
+    ranges = {recording.name: heights_of(recording) for recording in recordings}
+    return {
+        name: f"as recorded it goes from {low:.2f} to {high:.2f} m about its start, must be within "
+        f"{room[0]:g} to {room[1]:g} m"
+        for name, (low, high) in ranges.items()
+        if low < room[0] or high > room[1]
+    }
+
+
 def lifts_as_recorded(
     recordings: Sequence[Recording], source: str, room: tuple[float, float]
 ) -> RealLifts:
@@ -111,28 +122,22 @@ def lifts_as_recorded(
     InputError
         If all are left out.
     """
-    scenarios, left_out = [], {}
-    for recording in recordings:
-        low, high = heights_of(recording)
-        if low < room[0] or high > room[1]:
-            left_out[recording.name] = (
-                f"as recorded it goes from {low:.2f} to {high:.2f} m about its start, must be "
-                f"within {room[0]:g} to {room[1]:g} m"
-            )
-            continue
-        scenarios.append(
-            Scenario(
-                behaviour=AS_RECORDED,
-                human=AsRecorded(recording=recording),
-                trial=recording.name,
-                subject=LIVE_SUBJECT,
-                task=LEVEL,
-            )
-        )
-    if not scenarios:
+    left_out = beyond(recordings, room)
+    kept = [recording for recording in recordings if recording.name not in left_out]
+    if not kept:
         raise InputError(f"{source}: no lift can be played as recorded{_reasons(left_out)}")
+    scenarios = tuple(
+        Scenario(
+            behaviour=AS_RECORDED,
+            human=AsRecorded(recording=recording),
+            trial=recording.name,
+            subject=LIVE_SUBJECT,
+            task=LEVEL,
+        )
+        for recording in kept
+    )
     name = plain_name(f"recordings {source} as recorded")
-    suite = Suite(name=name, scenarios=tuple(scenarios), seeds=(SEED,))
+    suite = Suite(name=name, scenarios=scenarios, seeds=(SEED,))
     return RealLifts(suite=suite, left_out=left_out)
 
 

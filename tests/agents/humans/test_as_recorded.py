@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from colift.agents.agent import FRAME
 from colift.agents.humans import SUBJECTS, AsRecorded, Recording
-from colift.agents.humans.as_recorded import fastest_of, heights_of, recorded_frames
+from colift.agents.humans.as_recorded import fastest_of, heights_of, recorded_times
 from colift.agents.humans.recorded import _retarget
 from colift.agents.humans.shape import shape_of
 from colift.benchmark.episode.kept_world import lift_in_kept_world
@@ -24,12 +24,12 @@ def recording(rate=100.0, **changes):
 def test_height_and_pace_are_those_of_the_recording(rate):
     made = recording(rate)
     plan = AsRecorded(recording=made).plan(S1, 0)
-    played = plan.target[recorded_frames(made, plan)]
-    # Each of the two ramps takes a fifth of a second more than the recording.
-    times = np.array(made.times) + 0.2
-    heights = np.interp(times, FRAME * np.arange(1, len(played) + 1), played)
-    apart = heights - (np.array(made.heights) - made.heights[0])
-    assert np.abs(apart[(times > 0.4) & (times < times[-1] - 0.2)]).max() < 0.0025
+    first, times = recorded_times(made, plan)
+    heights = np.interp(times, made.times, np.array(made.heights) - made.heights[0])
+    assert np.abs(plan.target[first : first + len(times)] - heights)[:-20].max() < 0.0015
+    # Beyond the ramps, the pace is the recording's.
+    assert np.diff(times)[40:-40] == pytest.approx(FRAME, rel=0.005)
+    assert times[-1] == pytest.approx(made.times[-1] - made.times[0])
     assert plan.goal == pytest.approx(heights_of(made)[1], abs=1e-4)
     assert np.abs(np.diff(plan.target)).max() / FRAME == pytest.approx(fastest_of(made), rel=0.02)
 
