@@ -14,13 +14,13 @@ from colift.agents.humans.person_as_robot import PersonAsRobot
 from colift.agents.humans.plan import Behaviour, Embodied, Plan
 from colift.agents.humans.played import Played, PlayedHand
 from colift.agents.humans.recorded import Recorded
-from colift.agents.humans.recording_file import load_recordings, load_trials
 from colift.agents.humans.recordings import Recording
 from colift.agents.humans.scripted import ScriptedHuman
 from colift.agents.humans.second_person import SECOND_PERSON, SecondPerson
 from colift.agents.humans.smooth import Smooth
 from colift.agents.humans.subject import BOUNDS, GOAL_RANGE, SUBJECTS, Subject
 from colift.agents.humans.trial import Trial
+from colift.agents.humans.trial_file import load_recordings, load_trials
 
 __all__ = [
     "BOUNDS",

@@ -1,111 +1,173 @@
-"""A CSV file of recorded lifts."""
+"""The rows of a CSV file of recorded lifts."""
 
-from collections.abc import Mapping, Sequence
+import csv
+import io
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Final, NamedTuple
 
-import numpy as np
-from colift.agents.humans.artefacts import Series, fault
-from colift.agents.humans.beside import beside_fault
-from colift.agents.humans.copies import first_copy
-from colift.agents.humans.recording_rows import Row, read_rows
-from colift.agents.humans.recordings import BESIDE, COLUMNS, FAR, FORCE, TILT, Recording
-from colift.agents.humans.trial import Trial
+from colift.agents.humans.foreign_files import foreign_format
+from colift.agents.humans.recordings import BESIDE, COLUMNS, PERSON, PHASE
 from colift.base.errors import InputError
+from colift.base.text import decoded, read_bytes
+
+LARGEST: Final = 256 * 1024 * 1024
+"""Largest file [bytes]: some hours at 1000 Hz."""
+
+MISSING: Final = ("", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf")
+"""Texts, in any case, for the height of a marker that was not seen, or another missing value."""
+
+ALL: Final = (*COLUMNS, PERSON, PHASE, *BESIDE)
+"""The columns that are read."""
+
+OTHER_NAMES: Final = {
+    "trial": ("trial", "name", "lift", "take", "recording", "file", "id"),
+    "t_s": ("t_s", "t", "time", "time_s", "time [s]", "time (s)", "seconds", "timestamp"),
+    "z_m": ("z_m", "z", "height", "height_m", "height [m]", "height (m)", "y_m", "position_z"),
+}
+"""Names, in lower case, that other programs give to the columns."""
 
 
-def load_recordings(path: str | Path) -> tuple[Recording, ...]:
-    """Return the recordings of a CSV file with the columns ``trial,t_s,z_m``, in order.
+class Row(NamedTuple):
+    """A row: a sample of a trial."""
 
-    A column ``person`` names the person of each trial: lifts of one person are one unit in
-    intervals and tests. Heights [m] may have any origin within 10 m, times [s] any rate from 10 Hz.
+    line: int
+    """Its number in the file."""
+    trial: str
+    person: str
+    """Empty if the file names none."""
+    phase: str
+    """Empty if the file names none."""
+    time: float
+    """[s]"""
+    height: float
+    """[m], NaN if the marker was not seen."""
+    beside: tuple[float, ...]
+    """The values of :data:`.BESIDE`, NaN where there is none."""
+
+
+def read_rows(path: Path) -> Iterator[Row]:
+    """Yield the rows of a file.
 
     Raises
     ------
     InputError
-        As :func:`load_trials`.
+        If the file cannot be read or has another format, a column is missing or there twice, or a
+        value is not a number. The message names the line and the cure.
     """
-    return tuple(trial.recording for trial in load_trials(path))
-
-
-def load_trials(path: str | Path) -> tuple[Trial, ...]:
-    """Return the recordings of a CSV file with what was measured beside them, in order.
-
-    The columns ``phase``, ``z_far_m``, ``tilt_deg`` and ``force_n`` are optional, and may be empty
-    in whole trials. Other columns are ignored.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read or has another format, a column is missing or there twice, a
-        value is not a number, a trial has an artefact of :mod:`.artefacts` or :mod:`.beside` or two
-        persons, two names are the same number, or two trials are the same lift. The message names
-        the line and the cure.
-    """
-    path = Path(path)
-    rows: dict[str, list[Row]] = {}
-    for row in read_rows(path):
-        found = rows.setdefault(row.trial, [])
-        if found and found[0].person != row.person:
-            raise InputError(
-                f"{path}, line {row.line}: trial {row.trial!r:.80} is of person "
-                f"{row.person!r:.80}, and of {found[0].person!r:.80} before: a trial is one lift "
-                "of one person"
-            )
-        found.append(row)
-    if not rows:
-        raise InputError(f"{path}: no samples, needs rows of {','.join(COLUMNS)}")
-    _check_names(path, rows)
-    trials = tuple(_trial(path, each) for each in rows.values())
-    copy = first_copy([trial.recording for trial in trials])
-    if copy is not None:
-        one, other = (trials[i].recording.name for i in copy)
+    data = read_bytes(path, LARGEST)
+    name = foreign_format(data)
+    if name:
         raise InputError(
-            f"{path}, line {rows[other][0].line}: trial {other!r:.80} is the same lift as "
-            f"{one!r:.80}: keep one of them, since a copy would count as a further lift in "
-            "intervals and tests"
+            f"{path}: this is {name}, must be a CSV file with the columns {','.join(COLUMNS)}: "
+            "write the time [s] and the height [m] of one marker of the hand to such a file"
         )
-    return trials
+    reader = csv.reader(io.StringIO(decoded(data, str(path)), newline=""))
+    rows = (row for row in reader if any(map(str.strip, row)))
+    try:
+        header = [column.strip() for column in next(rows, ())]
+        _check_header(path, header)
+        places = {name: header.index(name) for name in ALL if name in header}
+        for row in rows:
+            where = f"{path}, line {reader.line_num}"
+            if any(map(str.strip, row[len(header) :])):
+                raise InputError(
+                    f"{where}: {len(row)} fields, must be {len(header)} as in the header (decimal "
+                    "commas? write points, as in 0.25)"
+                )
+            fields = {name: row[i].strip() for name, i in places.items() if i < len(row)}
+            yield _row(reader.line_num, fields, where)
+    except csv.Error as error:
+        raise InputError(f"{path}, line {reader.line_num}: not a CSV file: {error}") from None
 
 
-def _trial(path: Path, rows: Sequence[Row]) -> Trial:
-    times, heights = np.array([row.time for row in rows]), np.array([row.height for row in rows])
-    columns = dict(zip(BESIDE, np.array([row.beside for row in rows]).T, strict=True))
-    beside = {name: values for name, values in columns.items() if not np.isnan(values).all()}
-    found = fault(times, heights) or beside_fault(times, heights, beside)
-    if found is not None:
-        line = rows[found.sample].line
-        raise InputError(f"{path}, line {line}: trial {rows[0].trial!r:.80} {found.text}")
-    phases = tuple(row.phase for row in rows)
-    return Trial(
-        recording=Recording(
-            name=rows[0].trial,
-            times=tuple(times.tolist()),
-            heights=tuple(heights.tolist()),
-            person=rows[0].person,
-        ),
-        far=_values(beside, FAR),
-        tilts=_values(beside, TILT),
-        forces=_values(beside, FORCE),
-        phases=phases if any(phases) else (),
+def other_columns(path: Path) -> list[str]:
+    """Return the names of the columns that are not read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    text = decoded(read_bytes(path, LARGEST), str(path))
+    rows = csv.reader(io.StringIO(text, newline=""))
+    header = next((row for row in rows if "".join(row).strip() and not row[0].startswith("#")), [])
+    return [name.strip() for name in header if name.strip() and name.strip() not in ALL]
+
+
+def _row(line: int, fields: Mapping[str, str], where: str) -> Row:
+    trial, time, height = COLUMNS
+    if not fields.get(trial):
+        raise InputError(f"{where}: trial is empty, must name the trial")
+    phase = fields.get(PHASE, "")
+    return Row(
+        line=line,
+        trial=fields[trial],
+        person=fields.get(PERSON, ""),
+        phase="" if phase.lower() in MISSING else phase,
+        time=_number(fields.get(time, ""), time, where),
+        height=_measured(fields, height, where),
+        beside=tuple(_measured(fields, column, where) for column in BESIDE),
     )
 
 
-def _values(beside: Mapping[str, Series], column: str) -> tuple[float, ...]:
-    return tuple(beside[column].tolist()) if column in beside else ()
+def _measured(fields: Mapping[str, str], column: str, where: str) -> float:
+    text = fields.get(column, "")
+    return math.nan if text.lower() in MISSING else _number(text, column, where)
 
 
-def _check_names(path: Path, rows: Mapping[str, Sequence[Row]]) -> None:
-    """Refuse names that are the same number, such as ``1`` and ``1.0``."""
-    numbers: dict[float, str] = {}
-    for trial, samples in rows.items():
-        try:
-            number = float(trial)
-        except ValueError:
-            continue
-        other = numbers.setdefault(number, trial)
-        if other != trial:
+def _check_header(path: Path, header: Sequence[str]) -> None:
+    needed = ",".join(COLUMNS)
+    if not any(header):
+        raise InputError(f"{path}: empty file, needs the columns {needed}")
+    for column in (*COLUMNS, PHASE, *BESIDE):
+        if header.count(column) > 1:
             raise InputError(
-                f"{path}, line {samples[0].line}: the trials {other!r:.80} and {trial!r:.80} are "
-                "the same number: write one lift's name in one form, or give two lifts different "
-                "names"
+                f"{path}: the column {column} is there {header.count(column)} times, must be there "
+                "once: keep that of one marker"
             )
+    missing = [column for column in COLUMNS if column not in header]
+    if missing:
+        shown = "".join(c if c.isprintable() else " " for c in ", ".join(header))
+        raise InputError(
+            f"{path}: missing column(s) {', '.join(missing)}; found {shown:.200}{_hint(header)}"
+        )
+
+
+def _hint(header: Sequence[str]) -> str:
+    """Return the likely cause of a header without the columns; empty if there is none."""
+    lower = [column.lower() for column in header]
+    if header[0].startswith(("#", "%", "//")):
+        return f" (is this a comment? the first line must be {','.join(COLUMNS)})"
+    if len(header) == 1:
+        mark = "semicolons" if ";" in header[0] else "tabs" if "\t" in header[0] else ""
+        found = f", not by {mark}" if mark else ""
+        return (
+            f" (are the columns separated by commas{found}? and write decimal points, as in 0.25)"
+        )
+    if all(column in lower for column in COLUMNS):
+        return f" (write the names in lower case: {', '.join(COLUMNS)})"
+    likely = [
+        f"{name!r} to {column}"
+        for column in COLUMNS
+        if column not in header
+        for name in header
+        if name.lower() in OTHER_NAMES[column]
+    ]
+    return f" (rename the columns: {', '.join(likely)}?)" if likely else ""
+
+
+def _number(text: str, column: str, where: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        hint = ""
+        if text.count(",") == 1 and text.replace(",", "").lstrip("+-").isdecimal():
+            hint = f", with a decimal point: {text.replace(',', '.')}"
+        elif "," in text:
+            hint = ", without separators of thousands, as in 1234.5"
+        raise InputError(f"{where}: {column} is {text!r:.80}, must be a number{hint}") from None
+    if not math.isfinite(value):
+        raise InputError(f"{where}: {column} is {text!r:.80}, must be finite")
+    return value

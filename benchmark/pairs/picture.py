@@ -63,7 +63,9 @@ def _example(axes: Axes, lift: PairLift, summary: PairsSummary) -> None:
         fontsize=LETTERS,
         labelcolor=INK,
     )
-    axes.set_title(f"{lift.name}: {found.rmse_mm:.1f} mm", fontsize=LETTERS, color=INK, loc="right")
+    axes.set_title(
+        f"{lift.name:.40}: RMSE {found.rmse_mm:.1f} mm", fontsize=LETTERS, color=INK, loc="right"
+    )
 
 
 def _panel(axes: Axes, name: str, summary: PairsSummary) -> None:

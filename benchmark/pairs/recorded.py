@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from colift.agents.humans import Trial, load_trials
 from colift.agents.humans.beside import LENGTHS
-from colift.agents.humans.recording_rows import other_columns
+from colift.agents.humans.recording_file import other_columns
 from colift.agents.humans.recordings import FAR, TILT
 from colift.base.errors import InputError
 from colift.benchmark.pairs.coordination import Ends

@@ -44,7 +44,6 @@ ACCEPTANCE = tuple(
         "foreign_files",
         "goals",
         "recording_file",
-        "recording_rows",
         "treatment",
     )
 )
