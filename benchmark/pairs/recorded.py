@@ -1,5 +1,6 @@
 """The pairs in a file of recordings."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,11 +39,6 @@ class RecordedPairs:
     without: tuple[str, ...]
     """The trials that have none."""
 
-    @property
-    def named(self) -> bool:
-        """Whether the file names the pair of every lift."""
-        return all(lift.pair for lift in self.lifts)
-
 
 def recorded_pairs(path: Path, length: float | None = None) -> RecordedPairs:
     """Return the pairs in a file of recordings.
@@ -73,19 +69,20 @@ def recorded_pairs(path: Path, length: float | None = None) -> RecordedPairs:
             f"of the other person's end [m], or {TILT}, the table's inclination [deg]"
             + (f" (rename one of {others:.200}?)" if others else "")
         )
-    lifts, without = [], []
     for trial in trials:
         if not trial.far and trial.tilts and length is None:
             raise InputError(
                 f"{path}: trial {trial.recording.name!r:.80} has {TILT} but no {FAR}: its height "
                 "differences follow from the distance between the table's ends: --length METRES"
             )
-        ends = ends_of(trial, length)
-        if ends is None:
-            without.append(trial.recording.name)
-        else:
-            lifts.append(PairLift(trial=trial, ends=ends))
-    return RecordedPairs(lifts=tuple(lifts), without=tuple(without))
+    names = [trial.recording.name for trial in trials if not (trial.far or trial.tilts)]
+    return RecordedPairs(lifts=pair_lifts(trials, length), without=tuple(names))
+
+
+def pair_lifts(trials: Sequence[Trial], length: float | None = None) -> tuple[PairLift, ...]:
+    """Return the trials whose far end is known, with both ends; the length is that of the table."""
+    both = ((trial, ends_of(trial, length)) for trial in trials)
+    return tuple(PairLift(trial=trial, ends=ends) for trial, ends in both if ends is not None)
 
 
 def ends_of(trial: Trial, length: float | None = None) -> Ends | None:

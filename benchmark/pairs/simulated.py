@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from colift.agents.agent import FRAME
-from colift.agents.humans import Trial
+from colift.agents.humans import AsRecorded, Trial
 from colift.agents.humans.as_recorded import recorded_times
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
@@ -16,6 +16,7 @@ from colift.benchmark.pairs.coordination import Coordination, Ends, coordination
 from colift.benchmark.pairs.recorded import PairLift
 from colift.benchmark.real_lifts.suites import RealLifts, beyond, lifts_as_recorded
 from colift.benchmark.results.baselines import human_human_run
+from colift.benchmark.statistics import FloatArray
 from colift.benchmark.world.table import TABLE_LENGTH
 
 
@@ -76,10 +77,22 @@ def simulated_pairs(
     return SimulatedPairs(digest=real.suite.digest, lifts=found, left_out=left_out)
 
 
+def played_frames(scenario: Scenario, seed: int) -> slice:
+    """Return the frames of a lift in which a recording is played as recorded."""
+    first, times = _played(scenario, seed)
+    return slice(first, first + len(times))
+
+
+def _played(scenario: Scenario, seed: int) -> tuple[int, FloatArray]:
+    """Return the first such frame, and the recorded time in each of them [s]."""
+    human = scenario.human
+    assert isinstance(human, AsRecorded)
+    plan = human.plan(scenario.subject, derive_seed(seed, f"plan/{scenario.name}"))
+    return recorded_times(human.recording, plan)
+
+
 def _ends(trial: Trial, scenario: Scenario, episode: Episode) -> Ends:
-    seed = derive_seed(episode.seed, f"plan/{scenario.name}")
-    plan = scenario.human.plan(scenario.subject, seed)
-    first, times = recorded_times(trial.recording, plan)
+    first, times = _played(scenario, episode.seed)
     frames, trace = slice(first, first + len(times)), episode.trace
     samples = np.searchsorted(trial.times - trial.times[0], times, side="right") - 1
     return Ends(
