@@ -17,6 +17,9 @@ SHOWN: Final = ("rmse_mm", "rmse_about_mean_mm", "lag_ms", "gain")
 SPREAD: Final = 0.22
 """Half the width over which the pairs of a column are spread."""
 
+BAR: Final = 0.36
+"""Place of a mean beside the middle of its column."""
+
 LETTERS: Final = 8.5
 """Size of letters [points]."""
 
@@ -84,11 +87,12 @@ def _panel(axes: Axes, name: str, summary: PairsSummary) -> None:
     averaged = summary.averages.get(name)
     for column, mean in enumerate((averaged.recorded, averaged.simulated) if averaged else ()):
         if mean is not None:
-            low, high = mean.ends
-            axes.plot((column, column), (low, high), color=INK, lw=1.6, zorder=3)
-            axes.plot((column - 0.12, column + 0.12), (mean.mean,) * 2, color=INK, lw=1.6, zorder=3)
-    axes.set_xlim(-0.5, 1.5)
-    axes.set_xticks((0, 1), ("recorded", "simulated"))
+            (low, high), x = mean.ends, column + BAR
+            axes.plot((x, x), (low, high), color=INK, lw=1.6, zorder=3)
+            axes.plot((x - 0.08, x + 0.08), (mean.mean,) * 2, color=INK, lw=1.6, zorder=3)
+    shown = ("recorded", "simulated") if summary.simulated.lifts else ("recorded",)
+    axes.set_xlim(-0.5, len(shown) - 0.5)
+    axes.set_xticks(range(len(shown)), shown)
     axes.tick_params(axis="x", colors=INK)
     if name.startswith("rmse"):
         axes.set_ylim(bottom=0.0)

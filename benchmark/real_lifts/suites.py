@@ -125,7 +125,9 @@ def lifts_as_recorded(
     left_out = beyond(recordings, room)
     kept = [recording for recording in recordings if recording.name not in left_out]
     if not kept:
-        raise InputError(f"{source}: no lift can be played as recorded{_reasons(left_out)}")
+        raise InputError(
+            f"{source}: no lift can be played as recorded, only scaled{_reasons(left_out)}"
+        )
     scenarios = tuple(
         Scenario(
             behaviour=AS_RECORDED,

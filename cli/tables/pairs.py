@@ -64,10 +64,12 @@ def _sample(summary: PairsSummary) -> Iterator[str]:
         )
     if lifts < FEW:
         yield f"Fewer than {FEW} lifts say little."
-    missing = {measure_of(name).label: each.missing for name, each in summary.averages.items()}
-    for label, count in missing.items():
+    without: dict[int, list[str]] = {}
+    for name, each in summary.averages.items():
+        without.setdefault(each.missing, []).append(measure_of(name).label)
+    for count, labels in without.items():
         if count:
-            yield f"{counted(count, 'lift')} without {label}."
+            yield f"{counted(count, 'lift')} without {'; '.join(labels)}."
 
 
 def _meanings(summary: PairsSummary) -> Iterator[str]:

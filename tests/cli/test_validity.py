@@ -150,7 +150,7 @@ def test_a_sources_name_is_broken_between_its_parts(name, lines):
 
 
 def test_lifts_as_recorded_stand_beside_the_recorded_pairs(colift, tmp_path):
-    path = write(tmp_path / "pairs.csv", lambda u: math.sin(math.pi * u) ** 2)
+    path = write(tmp_path / "pairs.csv", lambda u: 0.6 * math.sin(math.pi * u) ** 2)
     first, *rows = path.read_text().splitlines()
     far = [f"{row},{0.9 * float(row.split(',')[2]):.5f}" for row in rows]
     path.write_text("\n".join([f"{first},z_far_m", *far]) + "\n")

@@ -50,7 +50,9 @@ def test_lifts_beyond_the_robots_stroke_are_left_out_by_name(path):
 
 def test_a_file_without_a_lift_within_reach_is_refused(tmp_path):
     path = write(tmp_path / "high.csv", {"a": 0.6, "b": 0.7})
-    with pytest.raises(InputError, match=r"high.csv: no lift can be played as recorded; a: as .*"):
+    with pytest.raises(
+        InputError, match=r"high.csv: no lift can be played as recorded, only scaled; a: as .*"
+    ):
         real_lifts(path, as_recorded=True)
 
 
