@@ -18,7 +18,7 @@ LARGEST: Final = 256 * 1024 * 1024
 MISSING: Final = ("", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf")
 """Texts, in any case, for the height of a marker that was not seen, or another missing value."""
 
-ALL: Final = (*COLUMNS, PERSON, PHASE, *BESIDE)
+ALL: Final[tuple[str, ...]] = (*COLUMNS, PERSON, PHASE, *BESIDE)
 """The columns that are read."""
 
 OTHER_NAMES: Final = {

@@ -96,7 +96,7 @@ def _ends(trial: Trial, scenario: Scenario, episode: Episode) -> Ends:
     frames, trace = slice(first, first + len(times)), episode.trace
     samples = np.searchsorted(trial.times - trial.times[0], times, side="right") - 1
     return Ends(
-        times=FRAME * np.arange(len(times)),
+        times=FRAME * np.arange(len(times), dtype=np.float64),
         near=trace.human_end[frames],
         far=trace.robot_end[frames],
         length=TABLE_LENGTH,
