@@ -28,8 +28,8 @@ class Source:
     name: str
     """Name in tables: that of the file or folder."""
     kind: str
-    """The kind of data: ``recordings``, ``as_recorded`` if they are not scaled, or ``live`` for lifts
-    of ``colift play``."""
+    """The kind of data: ``recordings``, ``as_recorded`` if they are not scaled, or ``live`` for
+    lifts of ``colift play``."""
     suite: Suite
     """Its lifts, to be played with any policy."""
     left_out: Mapping[str, str] = field(default_factory=dict)
