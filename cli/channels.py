@@ -19,6 +19,7 @@ from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     AsJson,
+    AsTheyWere,
     Behaviours,
     Jobs,
     Recordings,
@@ -57,11 +58,12 @@ def measure_channels(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    as_recorded: AsTheyWere = False,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Measure policies with and without a network that delays and loses messages."""
-    episodes = chosen_suite(suite, seeds, recordings, behaviour)
+    episodes = chosen_suite(suite, seeds, recordings, behaviour, as_recorded=as_recorded)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}
     specs = {text: checked_policy(text) for text in policies or MEASURED}

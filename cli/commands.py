@@ -20,6 +20,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "summary": "summary:summarise_bundles",
         "channels": "channels:measure_channels",
         "validity": "validity:validity",
+        "pairs": "pairs:pairs",
         "list": "listing:list_all",
         "render": "render:render_episode",
         "play": "play:play",

@@ -33,6 +33,7 @@ from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     AsJson,
+    AsTheyWere,
     Behaviours,
     ChannelName,
     Jobs,
@@ -71,6 +72,7 @@ def compare_policies(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    as_recorded: AsTheyWere = False,
     robot: RobotName = None,
     channel: ChannelName = None,
     references: Annotated[
@@ -90,10 +92,10 @@ def compare_policies(
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     named = policies or []
     bundles = _stored(named)
-    if bundles and not (suite or seeds or recordings or behaviour or robot):
+    if bundles and not (suite or seeds or recordings or as_recorded or behaviour or robot):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot)
+        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
     for each in stored:

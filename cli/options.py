@@ -58,6 +58,14 @@ Recordings = Annotated[
         "the folder of a session of 'colift play'.",
     ),
 ]
+AsTheyWere = Annotated[
+    bool,
+    typer.Option(
+        "--as-recorded",
+        help="Play --recordings at their own height and pace, those that the robot's arms reach; "
+        "default: scaled to 0.20 m and slowed down.",
+    ),
+]
 RobotName = Annotated[
     str | None,
     typer.Option(
@@ -140,11 +148,13 @@ def chosen_suite(
     recordings: Path | None,
     behaviours: Sequence[str] | None = None,
     robot: str | None = None,
+    *,
+    as_recorded: bool = False,
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
     With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with
-    that.
+    that. Recordings are scaled and slowed down unless ``as_recorded``.
 
     Raises
     ------
@@ -154,6 +164,8 @@ def chosen_suite(
     from colift.benchmark.suites.suite import make_suite
 
     if recordings is None:
+        if as_recorded:
+            raise InputError("--as-recorded needs --recordings: other lifts have one form")
         suite = make_suite(name or STANDARD_SUITE)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
@@ -167,13 +179,13 @@ def chosen_suite(
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
     from colift.benchmark.real_lifts.suites import real_lifts
 
-    lifts = real_lifts(recordings)
+    lifts = real_lifts(recordings, as_recorded=as_recorded, robot=robot)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
 
 
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:
-    """Report on stderr the lifts of a session that do not count, with the reasons."""
+    """Report on stderr the lifts of a source that do not count, with the reasons."""
     for name, reason in left_out.items():
         print(f"{source}: {name} does not count: {reason}", file=sys.stderr)
 

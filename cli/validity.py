@@ -67,11 +67,19 @@ def validity(
             autocompletion=suite_names,
         ),
     ] = None,
+    as_recorded: Annotated[
+        bool,
+        typer.Option(
+            "--as-recorded",
+            help="Play recordings at their own height and pace, beside the recorded pairs "
+            "themselves where the file has both ends; default: scaled to 0.20 m and slowed down.",
+        ),
+    ] = False,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
     """Judge how well suites predict the order and the size of scores on real lifts."""
-    sources = sources_of(data)
+    sources = sources_of(data, as_recorded=as_recorded)
     for real in sources:
         report_left_out(real.name, real.left_out)
     judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]

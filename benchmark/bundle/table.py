@@ -11,7 +11,7 @@ from colift.benchmark.bundle.files import EPISODES, TRACES
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, Metrics, Scores, reached
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import RECORDED
+from colift.benchmark.suites.catalogue import OF_RECORDINGS
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import TREATED, Treatments, treatments
 
@@ -63,7 +63,8 @@ def table_row(
     )
     row: dict[str, object] = dict(zip(column_names(metrics), values, strict=True))
     if played:
-        found = played.get(one_line(episode.trial)) if episode.behaviour == RECORDED else None
+        of_file = episode.behaviour in OF_RECORDINGS
+        found = played.get(one_line(episode.trial)) if of_file else None
         row |= dict.fromkeys(TREATED, "") if found is None else found.plain()
     return row
 

@@ -25,6 +25,7 @@
     ball_smooth_shared: "lifts smoothly, and knows, like the robot, where the ball should be",
     ball_pause_shared: "stops on the way, and knows, like the robot, where the ball should be",
     recorded: "repeats a recorded lift",
+    as_recorded: "repeats a recorded lift at its own size and pace",
     cued: "follows cues",
     played: "lifted live",
   };
