@@ -15,7 +15,7 @@ from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
-from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tables.failures import printed_lines
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.cli.completion import behaviours, people
@@ -30,6 +30,9 @@ from colift.cli.options import (
 
 HTML: Final = ".html"
 
+SIDE: Final = "side"
+"""The default camera."""
+
 
 def render_episode(
     policy: PolicyName,
@@ -41,13 +44,13 @@ def render_episode(
         ),
     ],
     behaviour: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="NAME",
-            help="The human's behaviour, or recorded:FILE.csv#TRIAL.",
+            help="The human's behaviour, or recorded:FILE.csv#TRIAL; default: the task's first.",
             autocompletion=behaviours,
         ),
-    ] = "smooth",
+    ] = None,
     scenario: Annotated[
         str | None, typer.Option(help="The old name of --behaviour.", hidden=True)
     ] = None,
@@ -61,30 +64,38 @@ def render_episode(
     task: Annotated[
         str, typer.Option(metavar="NAME", help="The task of the lift; see 'colift list'.")
     ] = LEVEL.name,
+    camera: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="View of pictures and films: side, front (behind the robot) or top.",
+        ),
+    ] = SIDE,
     robot: RobotName = None,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
-    """Draw a lift from the side, with the heights of both ends over time.
+    """Draw a lift, with the heights of both ends over time and all that its task asks for.
 
     Exit code 1, and no file, if the policy fails.
     """
-    _check(out)
+    _check(out, camera)
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
     holder = robot or DEFAULT_ROBOT
     make_robot(holder)
-    played = make_scenario(scenario or behaviour, subject, holder, control_period, latency, task)
+    named = behaviour or scenario or make_task(task).behaviours[0]
+    played = make_scenario(named, subject, holder, control_period, latency, task)
     check_plays(policy, task)
     spec = checked_policy(policy)
     with reported_interrupt(f"{out} is not drawn"):
-        episode = _drawn(spec, played, seed, out)
+        episode = _drawn(spec, played, seed, out, camera)
     print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
     print(f"RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
     print(f"; ended early: {episode.failure}" if episode.failure else "")
 
 
-def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
+def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path, camera: str) -> Episode:
     """Play a lift, draw it, and return it."""
     (episode,) = play(spec, played, (seed,))
     if is_policy_failure(episode.failure):
@@ -95,14 +106,16 @@ def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
     if out.suffix == HTML:
         _write_page(out, episode, played, spec.name)
     else:
-        _film(out, episode, played, spec.name)
+        _film(out, episode, played, spec.name, camera)
     return episode
 
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
-def _check(out: Path) -> None:
+def _check(out: Path, camera: str) -> None:
+    from colift.benchmark.rendering.cameras import check_camera
     from colift.benchmark.rendering.writing import SUFFIXES, check_film
 
+    check_camera(camera)
     if out.suffix not in (*SUFFIXES, HTML):
         known = ", ".join((*SUFFIXES, HTML))
         raise InputError(f"cannot write {out}: its suffix must be one of {known}")
@@ -112,12 +125,12 @@ def _check(out: Path) -> None:
         check_film(out)
 
 
-def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:
+def _film(out: Path, episode: Episode, played: Scenario, name: str, camera: str) -> None:
     from colift.benchmark.rendering.film import film_episode, shown_frames
 
     pictures = 1 if out.suffix == ".png" else len(shown_frames(episode))
     with progress_bar("drawing", pictures) as progress:
-        film_episode(out, episode, played, name, drawn=progress)
+        film_episode(out, episode, played, name, camera=camera, drawn=progress)
 
 
 def _write_page(out: Path, episode: Episode, played: Scenario, name: str) -> None:

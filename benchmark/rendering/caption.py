@@ -8,15 +8,17 @@ from typing import Final
 import matplotlib
 from colift.agents.agent import FRAME
 from colift.benchmark.episode.drawn import (
+    DrawnHurdle,
     DrawnSeries,
     ball_and_target,
+    drawn_hurdles,
     intended_far_end,
     shown_error,
 )
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.bodies import PERSON, label_of, shown_body
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT
+from colift.benchmark.rendering.style import COLOURS, FAINT, HUMAN, INK, PAPER, ROBOT
 from PIL import Image, ImageDraw, ImageFont
 
 VALUE: Final = 84
@@ -68,28 +70,32 @@ def readout(
     partner: str,
     drawn: Sequence[DrawnSeries] = (),
 ) -> None:
-    """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
+    """Write a frame's time, heights, places and errors [mm] into a scene.
 
     They are in the upper left above a NAO, and in the middle between two people. The last frame of
     a failed episode states the reason.
     """
     trace = episode.trace
     human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])
+    hurdles = drawn_hurdles(drawn, trace)
+    series = [each for each in drawn if each.stay is None]
+    level = intended_far_end(drawn) is None and ball_and_target(drawn) is None
+    error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
     rows = [
         ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
         ("human's end", _millimetres(human), HUMAN, False),
         (f"{label_of(partner)}'s end", _millimetres(robot), ROBOT, False),
-        *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
+        *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in series),
+        *((each.label, _state(each, frame), COLOURS[each.where], False) for each in hurdles),
+        ("difference" if level else "error", _millimetres(error), INK, not hurdles),
     ]
-    level = intended_far_end(drawn) is None and ball_and_target(drawn) is None
-    error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
-    rows.append(("difference" if level else "error", _millimetres(error), INK, True))
     pen = ImageDraw.Draw(picture)
-    size, line, wide = 16, 24, 192 if not drawn else 216
+    size, line, wide = 15, 20, 192 if not drawn else 216
     labels = max(letters(size).getlength(label) for label, *_ in rows)
-    wide = max(wide, round(labels) + VALUE)
-    top = 18
-    left = (picture.width - wide) // 2 if shown_body(partner) == PERSON else top
+    values = max(letters(size).getlength(value) for _, value, *_ in rows)
+    wide = max(wide, round(labels) + max(VALUE, round(values) + size))
+    top, margin = 10, 18
+    left = (picture.width - wide) // 2 if shown_body(partner) == PERSON else margin
     for row, (label, value, colour, bold) in enumerate(rows):
         y, font = top + row * line, letters(size, bold=bold)
         pen.text((left, y), label, fill=colour, font=font)
@@ -97,7 +103,7 @@ def readout(
     if episode.failure is not None and frame == len(trace.human_end) - 1:
         pen.rectangle((0, picture.height - line, picture.width, picture.height), fill=INK)
         font = letters(13)
-        reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * top)
+        reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * margin)
         place = (picture.width / 2, picture.height - line / 2)
         pen.text(place, reason, fill=PAPER, font=font, anchor="mm")
 
@@ -105,6 +111,15 @@ def readout(
 def _at(trace: Trace, drawn: DrawnSeries, frame: int) -> float:
     """Return an added series at a frame [mm]."""
     return 1000 * float(trace.added[drawn.name][frame])
+
+
+def _state(hurdle: DrawnHurdle, frame: int) -> str:
+    """Return when a hurdle opens, its height while it is open, and then the distance missed."""
+    if frame < hurdle.start:
+        return f"in {(hurdle.start - frame) * FRAME:.1f} s"
+    if frame < hurdle.stop:
+        return _millimetres(1000 * hurdle.height)
+    return "missed" if hurdle.missed is None else f"off {_millimetres(1000 * hurdle.missed)}"
 
 
 def _millimetres(height: float) -> str:
