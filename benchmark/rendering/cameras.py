@@ -51,6 +51,9 @@ class Camera:
 SIDE: Final = "side"
 """The camera that shows best whether the table is level."""
 
+CLOSE: Final = "close"
+"""The same, nearer: for small pictures, without the legs."""
+
 CAMERAS: Final[Mapping[str, Camera]] = {
     SIDE: Camera(
         eye=(0.18, -2.55, 0.42),
@@ -58,6 +61,13 @@ CAMERAS: Final[Mapping[str, Camera]] = {
         up=(0.0, 0.0, 1.0),
         half_height=0.93,
         half_width=None,
+    ),
+    CLOSE: Camera(
+        eye=(0.18, -2.55, 0.48),
+        aim=(0.0, 0.0, 0.16),
+        up=(0.0, 0.0, 1.0),
+        half_height=0.72,
+        half_width=0.98,
     ),
     "front": Camera(
         eye=(-2.9, -2.0, 1.15),

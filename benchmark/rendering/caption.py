@@ -44,17 +44,17 @@ def title_strip(episode: Episode, policy: str, width: int, height: int) -> Image
     right = width - size
     pen.text((right, middle), score, fill=INK, font=bold, anchor="rm")
     right -= round(pen.textlength(score, font=bold)) + size
-    name = _fitted(policy, bold, right / 2)
+    name = fitted(policy, bold, right / 2)
     pen.text((size, middle), name, fill=INK, font=bold, anchor="lm")
     left = size + bold.getlength(name)
     trial = [episode.trial] if episode.trial else []
     parts = ["", episode.behaviour, episode.subject, *trial, f"seed {episode.seed}"]
-    words = _fitted("  ·  ".join(parts), plain, right - left)
+    words = fitted("  ·  ".join(parts), plain, right - left)
     pen.text((left, middle), words, fill=FAINT, font=plain, anchor="lm")
     return picture
 
 
-def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
+def fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
     """Return the text, shortened to fit into ``room`` [pixels]."""
     if font.getlength(text) <= room:
         return text
@@ -83,11 +83,11 @@ def readout(
     error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
     rows = [
         ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
-        ("human's end", _millimetres(human), HUMAN, False),
-        (f"{label_of(partner)}'s end", _millimetres(robot), ROBOT, False),
-        *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in series),
+        ("human's end", millimetres(human), HUMAN, False),
+        (f"{label_of(partner)}'s end", millimetres(robot), ROBOT, False),
+        *((each.label, millimetres(_at(trace, each, frame)), INK, False) for each in series),
         *((each.label, _state(each, frame), COLOURS[each.where], False) for each in hurdles),
-        ("difference" if level else "error", _millimetres(error), INK, not hurdles),
+        ("difference" if level else "error", millimetres(error), INK, not hurdles),
     ]
     pen = ImageDraw.Draw(picture)
     size, line, wide = 15, 20, 192 if not drawn else 216
@@ -103,7 +103,7 @@ def readout(
     if episode.failure is not None and frame == len(trace.human_end) - 1:
         pen.rectangle((0, picture.height - line, picture.width, picture.height), fill=INK)
         font = letters(13)
-        reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * margin)
+        reason = fitted(" ".join(episode.failure.split()), font, picture.width - 2 * margin)
         place = (picture.width / 2, picture.height - line / 2)
         pen.text(place, reason, fill=PAPER, font=font, anchor="mm")
 
@@ -118,10 +118,10 @@ def _state(hurdle: DrawnHurdle, frame: int) -> str:
     if frame < hurdle.start:
         return f"in {(hurdle.start - frame) * FRAME:.1f} s"
     if frame < hurdle.stop:
-        return _millimetres(1000 * hurdle.height)
-    return "missed" if hurdle.missed is None else f"off {_millimetres(1000 * hurdle.missed)}"
+        return millimetres(1000 * hurdle.height)
+    return "missed" if hurdle.missed is None else f"off {millimetres(1000 * hurdle.missed)}"
 
 
-def _millimetres(height: float) -> str:
+def millimetres(height: float) -> str:
     """Return a height in whole millimetres, without a minus sign before zero."""
     return f"{round(height)} mm".replace("-", "\N{MINUS SIGN}")

@@ -275,14 +275,14 @@ class Chart:
         for side in ("top", "left", "right"):
             axes.spines[side].set_visible(False)
         axes.spines["bottom"].set_color(LINE)
-        axes.yaxis.set_label_coords(-37 * scale / axes.get_window_extent().width, 0.5)
+        axes.yaxis.set_label_coords(-41 * scale / axes.get_window_extent().width, 0.5)
         _legend(axes, pen, keys)
 
 
 def _legend(axes: "Axes", pen: Pen, keys: Sequence[Artist]) -> Legend:
     """Draw a legend in one line above the axes; where there is no room, it is drawn smaller."""
     room = axes.get_window_extent().width
-    for size in (1.0, 0.9, 0.8, 0.7):
+    for size, spacing in ((1.0, 1.8), (1.0, 1.1), (0.9, 1.1), (0.8, 0.9), (0.7, 0.8)):
         legend = axes.legend(
             handles=list(keys),
             loc="lower left",
@@ -293,7 +293,7 @@ def _legend(axes: "Axes", pen: Pen, keys: Sequence[Artist]) -> Legend:
             frameon=False,
             fontsize=size * pen.letters,
             handlelength=1.8,
-            columnspacing=1.8 * size**2,
+            columnspacing=spacing,
             labelcolor=INK,
         )
         if legend.get_window_extent().width <= room:

@@ -1,6 +1,7 @@
 """A finished lift as a film, or as one picture."""
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
@@ -44,6 +45,40 @@ APART: Final = 60
 """Least distance of a still's moments [frames], in lifts that are long enough."""
 
 
+SPEEDS: Final = (0.125, 12.5)
+"""Slowest and fastest film, relative to the lift."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Look:
+    """The view and the pace of pictures.
+
+    Raises
+    ------
+    InputError
+        If the camera is unknown, or a number is out of range.
+    """
+
+    camera: str = SIDE
+    """Name of the camera; see :data:`.CAMERAS`."""
+    speed: float = 1.0
+    """Speed of a film, relative to the lift."""
+    plays: int = 0
+    """Number of times that a GIF or WebP plays; 0 is without end."""
+
+    def __post_init__(self) -> None:
+        """Check the values."""
+        check_camera(self.camera)
+        slowest, fastest = SPEEDS
+        if not slowest <= self.speed <= fastest:
+            raise InputError(f"speed must be within {slowest} to {fastest}, got {self.speed}")
+        if self.plays < 0:
+            raise InputError(f"plays must not be negative, got {self.plays}")
+
+
+DEFAULT_LOOK: Final = Look()
+
+
 def shown_frames(episode: Episode, fps: float = FPS) -> list[int]:
     """Return the frames of the trace that a film of the episode shows: evenly, and the last.
 
@@ -62,7 +97,12 @@ def shown_frames(episode: Episode, fps: float = FPS) -> list[int]:
 
 
 def frames(
-    episode: Episode, scenario: Scenario, policy: str, *, fps: float = FPS, camera: str = SIDE
+    episode: Episode,
+    scenario: Scenario,
+    policy: str,
+    *,
+    fps: float = FPS,
+    look: Look = DEFAULT_LOOK,
 ) -> Iterator[Picture]:
     """Yield the pictures of a film: title, scene, curves with a moving cursor.
 
@@ -75,24 +115,23 @@ def frames(
     policy
         Name of the policy, for the title.
     fps
-        Pictures for each second of the lift.
-    camera
-        Name of the camera; see :data:`.CAMERAS`.
+        Pictures for each second of the film.
+    look
+        Camera and speed.
 
     Raises
     ------
     InputError
-        As :func:`shown_frames`, or if the camera is unknown.
+        As :func:`shown_frames`.
     """
-    check_camera(camera)
     partner = scenario.partner
-    shown = shown_frames(episode, fps)
+    shown = shown_frames(episode, fps / look.speed)
     drawn = drawn_series(scenario.task.metrics)
     chart = Chart(episode.trace, partner=label_of(partner), drawn=drawn)
     curves = Curves(chart, WIDTH, CURVES + PANEL * (chart.panels - 1))
     page = Image.new("RGB", (WIDTH, TITLE + SCENE + curves.height), PAPER)
     page.paste(title_strip(episode, policy, WIDTH, TITLE))
-    with LiftScene(episode.trace, partner, drawn, camera) as lift:
+    with LiftScene(episode.trace, partner, drawn, look.camera) as lift:
         for frame in shown:
             page.paste(_view(lift, episode, frame, (WIDTH, SCENE), drawn), (0, TITLE))
             page.paste(curves.at(frame), (0, TITLE + SCENE))
@@ -130,16 +169,15 @@ def still_moments(episode: Episode, drawn: Sequence[DrawnSeries] = ()) -> list[i
 
 
 def still_picture(
-    episode: Episode, scenario: Scenario, policy: str, *, camera: str = SIDE
+    episode: Episode, scenario: Scenario, policy: str, *, look: Look = DEFAULT_LOOK
 ) -> Picture:
     """Return one picture of a lift: three moments side by side, and the curves under them.
 
     Raises
     ------
     InputError
-        If the episode ended before its first frame, or the camera is unknown.
+        If the episode ended before its first frame.
     """
-    check_camera(camera)
     partner = scenario.partner
     drawn = drawn_series(scenario.task.metrics)
     moments = still_moments(episode, drawn)
@@ -149,7 +187,7 @@ def still_picture(
     page = Image.new("RGB", (STILL_WIDTH, STILL_TITLE + STILL_SCENE + height), PAPER)
     page.paste(title_strip(episode, policy, STILL_WIDTH, STILL_TITLE))
     step = (STILL_WIDTH + GUTTER) // len(moments)
-    with LiftScene(episode.trace, partner, drawn, camera) as lift:
+    with LiftScene(episode.trace, partner, drawn, look.camera) as lift:
         for column, frame in enumerate(moments):
             view = _view(lift, episode, frame, (step - GUTTER, STILL_SCENE), drawn)
             page.paste(view, (column * step, STILL_TITLE))
@@ -164,36 +202,37 @@ def film_episode(
     policy: str,
     *,
     fps: float = FPS,
-    camera: str = SIDE,
+    look: Look = DEFAULT_LOOK,
     drawn: Callable[[int], None] | None = None,
 ) -> None:
-    """Write a lift as a film (``.gif``, ``.mp4``) or as one picture (``.png``).
+    """Write a lift as a film (``.gif``, ``.webp``, ``.mp4``) or as one picture (``.png``).
 
     Parameters
     ----------
     path
         The file; its suffix determines the format.
-    episode, scenario, policy, fps, camera
+    episode, scenario, policy, fps, look
         As in :func:`frames`.
     drawn
         Called with 1 after each picture, for a progress bar; there are
-        ``len(shown_frames(episode, fps))`` in a film and one in a ``.png``.
+        ``len(shown_frames(episode, fps / look.speed))`` in a film and one in a ``.png``.
 
     Raises
     ------
     InputError
-        If the file cannot be written, the camera is unknown, or there is nothing to show.
+        If the file cannot be written, or there is nothing to show.
     """
     check_film(path)
-    shown_frames(episode, fps)
+    shown_frames(episode, fps / look.speed)
     if path.suffix == ".png":
-        pictures = iter((still_picture(episode, scenario, policy, camera=camera),))
+        pictures = iter((still_picture(episode, scenario, policy, look=look),))
     else:
-        pictures = frames(episode, scenario, policy, fps=fps, camera=camera)
-    write(path, _counted(pictures, drawn), fps)
+        pictures = frames(episode, scenario, policy, fps=fps, look=look)
+    write(path, counted(pictures, drawn), fps, plays=look.plays)
 
 
-def _counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -> Iterator[Picture]:
+def counted(pictures: Iterator[Picture], drawn: Callable[[int], None] | None) -> Iterator[Picture]:
+    """Yield pictures, and tell after each that it is drawn."""
     for picture in pictures:
         yield picture
         if drawn is not None:

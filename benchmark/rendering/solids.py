@@ -117,6 +117,14 @@ def disc(radius: float) -> Mesh:
     return _revolved(np.array([[radius, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]]), 1.0)
 
 
+def cylinder(radius: float, length: float) -> Mesh:
+    """Return a cylinder about z, with its middle at the origin [m]."""
+    top = length / 2
+    rims = [(0.0, -top, 0, -1), (radius, -top, 0, -1), (radius, -top, 1, 0)]
+    rims += [(radius, top, 1, 0), (radius, top, 0, 1), (0.0, top, 0, 1)]
+    return _revolved(np.array(rims), 1.0)
+
+
 def limb(length: float, radii: tuple[float, float], depth: float = 1.0) -> Mesh:
     """Return a tapered rod with round ends: two balls ``length`` apart, and their tangent cone.
 
