@@ -17,7 +17,7 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.rendering.lift_scene import LiftScene
-from colift.benchmark.rendering.parts import Part, Pose, parts_of, poses_of
+from colift.benchmark.rendering.rigid import Pose, Shape, pose_of, rigid_bodies
 from colift.benchmark.rendering.solids import Colour
 from numpy.typing import NDArray
 
@@ -75,24 +75,26 @@ def write_model(path: Path, episode: Episode, scenario: Scenario, policy: str) -
     frames = [*range(0, count - 1, EVERY), count - 1]
     drawn = drawn_series(scenario.task.metrics)
     with LiftScene(episode.trace, scenario.partner, drawn) as lift:
-        parts = parts_of(lift.scene)
+        bodies = rigid_bodies(lift.scene)
         keys = []
         for frame in frames:
             lift.show(frame)
-            keys.append(poses_of(lift.scene, parts))
+            keys.append([pose_of(lift.scene, each) for each in bodies])
     model = trimesh.Scene(metadata=_description(episode, scenario, policy))
     model.graph.update("lift", matrix=UP)
-    for part, pose in zip(parts, keys[0], strict=True):
-        _add(trimesh, model, part, pose)
-    times = (np.array(frames) + 1) * FRAME
+    for body, pose in zip(bodies, keys[0], strict=True):
+        model.graph.update(body.name, "lift", matrix=_matrix(trimesh, pose))
+        for shape in body.shapes:
+            _add(trimesh, model, body.name, shape)
+    times = np.array(frames) * FRAME
     tracks = {
-        part.name: track
-        for part, track in zip(parts, zip(*keys, strict=True), strict=True)
+        body.name: track
+        for body, track in zip(bodies, zip(*keys, strict=True), strict=True)
         if any(pose != track[0] for pose in track)
     }
     content = model.export(
         file_type="glb",
-        buffer_postprocessor=lambda items, tree: _animate(items, tree, times - times[0], tracks),
+        buffer_postprocessor=lambda items, tree: _animate(items, tree, times, tracks),
     )
     try:
         path.write_bytes(content)
@@ -120,26 +122,33 @@ def _description(episode: Episode, scenario: Scenario, policy: str) -> dict[str,
     }
 
 
-def _add(trimesh: Any, model: Any, part: Part, pose: Pose) -> None:
+def _add(trimesh: Any, model: Any, body: str, shape: Shape) -> None:
+    """Add a shape to a model, as part of a body."""
+    red, green, blue = (round(255 * value) for value in shape.colour[:3])
     material = trimesh.visual.material.PBRMaterial(
-        name="#" + "".join(f"{round(255 * value):02x}" for value in part.colour[:3]),
-        baseColorFactor=[*_linear(part.colour), part.colour[3]],
+        name=f"#{red:02x}{green:02x}{blue:02x}",
+        baseColorFactor=[*_linear(shape.colour), shape.colour[3]],
         metallicFactor=0.0,
         roughnessFactor=ROUGH,
     )
     mesh = trimesh.Trimesh(
-        vertices=part.mesh.vertices,
-        faces=part.mesh.triangles,
-        vertex_normals=part.mesh.normals,
+        vertices=shape.mesh.vertices,
+        faces=shape.mesh.triangles,
+        vertex_normals=shape.mesh.normals,
         visual=trimesh.visual.TextureVisuals(material=material),
         process=False,
     )
+    name = f"{body}, shape {len(model.geometry) + 1}"
+    frame = _matrix(trimesh, shape.frame)
+    model.add_geometry(mesh, name, geom_name=name, parent_node_name=body, transform=frame)
+
+
+def _matrix(trimesh: Any, pose: Pose) -> NDArray[np.float64]:
+    """Return the matrix of a pose, of shape (4, 4)."""
     place, (x, y, z, w) = pose
-    matrix = trimesh.transformations.quaternion_matrix([w, x, y, z])
+    matrix: NDArray[np.float64] = trimesh.transformations.quaternion_matrix([w, x, y, z])
     matrix[:3, 3] = place
-    model.add_geometry(
-        mesh, part.name, geom_name=part.name, parent_node_name="lift", transform=matrix
-    )
+    return matrix
 
 
 def _linear(colour: Colour) -> list[float]:

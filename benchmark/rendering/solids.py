@@ -5,8 +5,8 @@ exact normals.
 """
 
 import math
-from dataclasses import dataclass
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Final, Self
 
 import numpy as np
 from colift.benchmark.world.bullet import pybullet
@@ -32,6 +32,10 @@ class Mesh:
     """(n, 3) unit vectors."""
     triangles: NDArray[np.int64]
     """(m, 3) indices of vertices, anticlockwise as seen from outside."""
+
+    def moved(self, way: tuple[float, float, float]) -> Self:
+        """Return the same surface elsewhere [m]."""
+        return replace(self, vertices=self.vertices + way)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
