@@ -15,8 +15,8 @@ from PIL import Image
 COLOURS: Final = 256
 """Colours of a GIF, shared by its pictures, so that none flickers."""
 
-QUALITY: Final = 82
-"""Quality of a WebP, of 100."""
+WEBP: Final = {"quality": 80, "kmin": 999, "kmax": 1000}
+"""Quality of a WebP, of 100, and its distance of whole pictures: it holds changes instead."""
 
 SAMPLES: Final = 5
 """Number of pictures from which the colours of a film are chosen."""
@@ -100,7 +100,7 @@ def _write_webp(path: Path, pictures: Iterable[Picture], fps: float, plays: int)
         append_images=rest,
         duration=round(1000 / fps),
         loop=plays,
-        quality=QUALITY,
+        **WEBP,
     )
 
 
