@@ -13,7 +13,8 @@ from colift.base.errors import InputError
 from colift.base.registry import STANDARD_SUITE
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
-from colift.cli.completion import behaviours, channels, policies, robots, suites
+from colift.benchmark.rendering.layout import Layout, find_layout
+from colift.cli.completion import behaviours, channels, layouts, policies, robots, suites
 from colift.cli.remedies import naming, opened
 
 # The engine takes a second to import: not for a help text or a completion.
@@ -113,6 +114,15 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),
 ]
+LayoutName = Annotated[
+    str,
+    typer.Option(
+        "--for",
+        metavar="column|page|slide",
+        help="Size of the figures: a column (3.5 inches), a page (7 inches) or a slide (16:9).",
+        autocompletion=layouts,
+    ),
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
 
@@ -170,6 +180,18 @@ def chosen_suite(
     lifts = real_lifts(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
+
+
+def chosen_layout(text: str) -> Layout:
+    """Return the layout of the option ``--for``.
+
+    Raises
+    ------
+    InputError
+        If there is no such layout.
+    """
+    with naming("--for"):
+        return find_layout(text)
 
 
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:

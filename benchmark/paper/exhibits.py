@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from colift.benchmark.rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, style_axes
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.style import HUMAN, LINE, ROBOT, style_axes
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -45,9 +46,14 @@ def p_value_text(p: float) -> str:
     return f"p = {p:.4f}" if p >= 0.00015 else "p < 0.0002"
 
 
-DPI: Final = 130
-WIDTH: Final = 8.0
-"""Width of a figure [inches]."""
+NARROW: Final = 0.7
+"""Heights of panels in a column of print, relative to those on a page."""
+
+AROUND: Final = 0.6
+"""Room for axes and legend [inches]."""
+
+FULL: Final = 0.9
+"""Largest width of a legend, relative to that of its panel."""
 
 PREDICTION: Final = "#009E73"
 CONFIDENCE: Final = "#8A4F9E"
@@ -72,6 +78,7 @@ class Exhibit:
 
 
 def panels(
+    layout: Layout,
     labels: Sequence[str],
     heights: Sequence[float],
     *,
@@ -84,6 +91,8 @@ def panels(
 
     Parameters
     ----------
+    layout
+        Size of the figure. In a narrow one, the columns of panels stand below each other.
     labels
         Quantity on the vertical axis of each row of panels.
     heights
@@ -97,39 +106,59 @@ def panels(
     share_y
         Whether the panels of a row share the vertical axis.
     """
-    figure = Figure(
-        figsize=(WIDTH, sum(heights) + 0.6), dpi=DPI, facecolor=PAPER, layout="constrained"
-    )
+    across = 1 if layout.narrow else columns
+    height = (NARROW if layout.narrow else 1.0) * sum(heights) * columns / across
+    figure = Figure(figsize=layout.size(height + AROUND), layout="constrained")
     FigureCanvasAgg(figure)
+    stacks = columns // across
     grid = figure.subplots(
-        len(labels),
-        columns,
-        sharex=share_x,
-        sharey="row" if share_y else False,
-        squeeze=False,
-        height_ratios=list(heights),
+        stacks * len(labels), across, squeeze=False, height_ratios=[*heights] * stacks
     )
-    rows: list[list[Axes]] = [list(row) for row in grid]
+    rows = [grid[row :: len(labels)].ravel().tolist() for row in range(len(labels))]
     for row, label in zip(rows, labels, strict=True):
-        for axes in row:
+        for index, axes in enumerate(row):
             style_axes(axes)
-        row[0].set_ylabel(label, fontsize=9, color=INK)
+            if share_x:
+                axes.sharex(rows[0][0])
+                axes.tick_params(labelbottom=row is rows[-1])
+            if share_y:
+                axes.sharey(row[0])
+            if index % across == 0:
+                _label(axes, label, upright=layout.height is not None)
+            elif share_y:
+                axes.tick_params(labelleft=False)
     for axes in rows[-1]:
-        axes.set_xlabel(x_label, fontsize=9, color=INK)
+        axes.set_xlabel(x_label)
     return figure, rows
 
 
-def legend(axes: Axes, columns: int = 4) -> None:
-    """Put the legend above the axes."""
-    axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        borderaxespad=0.2,
-        ncols=columns,
-        frameon=False,
-        fontsize=8.5,
-        labelcolor=INK,
-    )
+def _label(axes: Axes, label: str, *, upright: bool) -> None:
+    """Write the quantity beside an axis, upright on a slide, whose panels may be low."""
+    if upright:
+        axes.set_ylabel(label.replace(" [", "\n["), rotation=0, ha="right", va="center")
+    else:
+        axes.set_ylabel(label)
+
+
+def legend(axes: Axes, title: str = "") -> None:
+    """Put the legend above the axes, with a title above it, in as few rows as its width allows."""
+    figure = axes.get_figure()
+    specification = axes.get_subplotspec()
+    assert figure is not None
+    assert specification is not None
+    beside = axes.yaxis.get_tightbbox()
+    room = figure.bbox.width / specification.get_gridspec().ncols - (beside.width if beside else 0)
+    for columns in range(4, 0, -1):
+        made = axes.legend(
+            loc="lower left",
+            bbox_to_anchor=(0, 1.0),
+            borderaxespad=0.2,
+            ncols=columns,
+            title=title,
+            alignment="left",
+        )
+        if made.get_window_extent().width <= FULL * room:
+            return
 
 
 def shade(axes: Axes, spans: Sequence[tuple[float, float]], label: str = "") -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from colift.agents.agent import FRAME
 from colift.benchmark.episode.drawn import DrawnSeries, intended_far_end
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.rendering.style import AIM, FAINT, HUMAN, INK, LINE, PAPER, ROBOT
+from colift.benchmark.rendering.style import AIM, DASHES, FAINT, HUMAN, INK, LINE, PAPER, ROBOT
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -85,7 +85,7 @@ class Curves:
         goal = self._goal
         meant, gap = (human, "difference") if goal is None else (goal, "error")
         axes.fill_between(times, meant, robot, color=FAINT, alpha=GAP * opacity, linewidth=0)
-        dashes = (0, (4, 3))
+        dashes = DASHES
         axes.plot(times, self._target, color=INK, alpha=opacity, lw=0.9 * scale, ls=dashes)
         more = [
             (

@@ -18,6 +18,11 @@ PAPER: Final = "#FFFFFF"
 SKY: Final = "#EFF2F6"
 AIM: Final = "#00805D"
 
+DASHES: Final = (0, (4, 3))
+"""Line style of what is meant, or to be compared with."""
+ROBOT_DASHES: Final = (0, (7, 1.2))
+"""Line style of the robot's end, which tells it from the human's in print without colours."""
+
 
 def rgba(colour: str) -> tuple[float, float, float, float]:
     """Return a colour ``#rrggbb`` as red, green, blue and opacity within 0 to 1."""
@@ -29,7 +34,7 @@ def style_axes(axes: "Axes") -> None:
     """Give axes the common look."""
     axes.grid(color=LINE, linewidth=0.7)
     axes.set_axisbelow(True)
-    axes.tick_params(labelsize=8.5, colors=FAINT, length=0)
+    axes.tick_params(colors=FAINT, length=0)
     for side in ("top", "left", "right"):
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_color(LINE)
