@@ -24,6 +24,7 @@ from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_st
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
@@ -36,10 +37,12 @@ from colift.cli.options import (
     Behaviours,
     ChannelName,
     Jobs,
+    LayoutName,
     Recordings,
     RobotName,
     Seeds,
     chosen_channel,
+    chosen_layout,
     chosen_suite,
     try_folder,
 )
@@ -83,8 +86,13 @@ def compare_policies(
     jobs: Jobs = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Folder for compare.html, .png, .csv and .json."),
+        typer.Option(
+            metavar="DIR",
+            help="Folder for compare.html, .csv and .json, the figures (.png, .svg, .pdf), and "
+            "compare.tex and .bib for LaTeX.",
+        ),
     ] = None,
+    layout: LayoutName = PAGE.name,
     as_json: AsJson = False,
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
@@ -104,6 +112,7 @@ def compare_policies(
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
+    size = chosen_layout(layout)
     if out is not None:
         # The files need matplotlib, which is slow to load.
         from colift.benchmark.comparison.files import write_comparison
@@ -113,7 +122,7 @@ def compare_policies(
     results = [each.policy for each in stored]
     comparison = _compare(specs, results, episodes, limits, network, jobs, as_json)
     if out is not None:
-        write_comparison(out, comparison)
+        write_comparison(out, comparison, size)
     if as_json:
         print_json(comparison_json(comparison))
     else:

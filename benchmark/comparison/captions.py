@@ -83,14 +83,9 @@ def title(comparison: Comparison) -> str:
 
 
 def picture_title(comparison: Comparison) -> str:
-    """Return the title of the picture, with a line on how to read it."""
-    (level, more_level, _), (smooth, smoother, _) = _praise(comparison)
-    return (
-        f"How {level} and how {smooth}: {title(comparison)}\n"
-        f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
-        f"Orange: no other policy is both {more_level} and {smoother}."
-        + (" Squares: references." if comparison.results.references else "")
-    )
+    """Return the title of the picture."""
+    (level, _, _), (smooth, _, _) = _praise(comparison)
+    return f"How {level} and how {smooth}: {title(comparison)}"
 
 
 def verdict(comparison: Comparison) -> str:

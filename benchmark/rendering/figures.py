@@ -11,7 +11,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 from colift.benchmark.rendering.layout import Layout
 from colift.benchmark.rendering.style import FAINT, INK, PAPER
 from matplotlib import style
@@ -35,6 +34,7 @@ LOOK: Final[dict[str, Any]] = {
 }
 
 FILES: Final[dict[str, Any]] = {
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial"],
     "svg.fonttype": "none",
     "svg.hashsalt": "colift",
     "pdf.fonttype": 42,
@@ -75,7 +75,7 @@ def figure_bytes(figure: Figure, suffix: str, title: str) -> bytes:
         Content of the figure in a line, which readers of the file show.
     """
     buffer = io.BytesIO()
-    with mpl.rc_context(FILES):
+    with style.context(["default", FILES]):
         figure.savefig(
             buffer,
             format=suffix.removeprefix("."),

@@ -66,7 +66,7 @@ def _fewer(comparison: Comparison) -> str:
     lifts = {
         metric.words.present: None
         for metric in comparison.results.metrics
-        if any(_partial(metric, ranked) for ranked in policies)
+        if any(ranked.partial(metric) for ranked in policies)
     }
     return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
@@ -109,13 +109,7 @@ def _rank(overall: Ranking, ranked: RankedPolicy) -> str:
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> str:
     mean = ranked.scores.metric(metric.name).mean
-    return metric.text(mean) + (" †" if _partial(metric, ranked) else "")
-
-
-def _partial(metric: Metric, ranked: RankedPolicy) -> bool:
-    """Return whether a mean leaves out lifts that count as the worst."""
-    found = ranked.scores.metric(metric.name)
-    return metric.missing == "worst" and found.mean is not None and found.missing > 0
+    return metric.text(mean) + (" †" if ranked.partial(metric) else "")
 
 
 def differences_table(comparison: Comparison) -> Table:

@@ -3,6 +3,7 @@
 from datetime import UTC, datetime, timedelta
 from typing import Final
 
+from colift.base.tex import tex
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.metrics import sort_key
@@ -11,14 +12,6 @@ NONE: Final = "\N{EN DASH}"
 """Shown for a missing number."""
 
 MINUS: Final = "\N{MINUS SIGN}"
-
-TEX: Final = {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    **{letter: f"\\{letter}" for letter in "&%$#_{}"},
-}
-"""Characters that TeX would take for a command, escaped."""
 
 
 def number(value: float | None, places: int = 1) -> str:
@@ -89,11 +82,6 @@ def badge_text(standing: RankedRow) -> str:
     return f"{mm} · " + (
         f"rank {standing.rank}" if standing.ranked and standing.rank else "not ranked"
     )
-
-
-def tex(text: str) -> str:
-    """Return a text escaped for TeX."""
-    return "".join(TEX.get(letter, letter) for letter in text)
 
 
 FILTERS: Final = {

@@ -16,7 +16,10 @@ from colift.benchmark.comparison.files import (
     comparison_json,
     write_comparison,
 )
+from colift.benchmark.rendering.layout import LAYOUTS, Layout
 from PIL import Image
+
+from tests.printed import check_figure
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +30,9 @@ def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 def test_the_files_are_those_named(folder: Path) -> None:
-    assert sorted(path.name for path in folder.iterdir()) == [
-        "compare.csv",
-        "compare.html",
-        "compare.json",
-        "compare.png",
-    ]
+    figures = {f"{name}.{kind}" for name in ("compare", "ranks") for kind in ("png", "svg", "pdf")}
+    texts = {f"compare.{kind}" for kind in ("csv", "html", "json", "tex", "bib")}
+    assert {path.name for path in folder.iterdir()} == figures | texts
 
 
 def test_equal_comparisons_give_equal_files(
@@ -117,6 +117,14 @@ def test_the_page_has_colours_for_the_dark(folder: Path) -> None:
         assert f"{name}:" in dark
     drawn = source[source.index("<svg") : source.rindex("</svg>")]
     assert not re.findall(r"""(?:fill|stroke)(?:: |=")#\w+""", drawn)
+
+
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_the_figures_are_for_print(comparison: Comparison, layout: Layout, tmp_path: Path) -> None:
+    write_comparison(tmp_path, comparison, layout)
+    names = {"leader", "follower", "twin", "two", "people"}
+    assert names <= check_figure(tmp_path / "compare", layout)
+    assert names | {"1", "3"} <= check_figure(tmp_path / "ranks", layout)
 
 
 def test_the_picture_fits_a_readme(folder: Path) -> None:
