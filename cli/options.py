@@ -13,7 +13,7 @@ from colift.base.errors import InputError
 from colift.base.registry import STANDARD_SUITE
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
-from colift.benchmark.rendering.layout import Layout, find_layout
+from colift.benchmark.rendering.layout import SUFFIXES, Layout, find_layout
 from colift.cli.completion import behaviours, channels, layouts, policies, robots, suites
 from colift.cli.remedies import naming, opened
 
@@ -180,6 +180,20 @@ def chosen_suite(
     lifts = real_lifts(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
+
+
+def check_figure(path: Path | None) -> None:
+    """Refuse a file of a figure that cannot be written, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If its suffix is none of a figure, or as :func:`check_output`.
+    """
+    if path is not None and path.suffix not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise InputError(f"cannot write {path}: its suffix must be one of {known}")
+    check_output(path)
 
 
 def chosen_layout(text: str) -> Layout:

@@ -5,7 +5,6 @@ import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-from colift.benchmark.paper.exhibits import CONFIDENCE, PREDICTION
 from colift.benchmark.paper.topics.timing import BY_LATENCY
 from colift.benchmark.rendering import style
 from colift.benchmark.rendering.layout import Layout
@@ -16,7 +15,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 PALETTE = {
     *(value.lower() for value in vars(style).values() if re.fullmatch("#[0-9A-F]{6}", str(value))),
-    *(colour.lower() for colour in (CONFIDENCE, PREDICTION)),
+    *(colour.lower() for colour, _, _ in style.LOOKS),
     *(colour.lower() for colour, _ in BY_LATENCY),
 }
 """Colours that are told apart with any kind of colour vision, and greys."""

@@ -6,7 +6,8 @@ from typing import Final
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.comparison.ranking import Ranking, SubsetKind, rank_policies
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, PEOPLE
+from colift.benchmark.rendering.style import PEOPLE
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 
 MOST_SUBJECTS: Final = 10
 """Most subjects for results by subject: of more, each has a few lifts, which say nothing alone."""

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
-from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.layout import SUFFIXES, Layout
 from colift.benchmark.rendering.style import FAINT, INK, PAPER
 from matplotlib import style
 from matplotlib.figure import Figure
@@ -46,9 +46,6 @@ NAMELESS: Final[dict[str, dict[str, None]]] = {
     ".pdf": {"Creator": None, "Producer": None, "CreationDate": None},
 }
 """What matplotlib would write into a file: names, versions and dates, which differ between runs."""
-
-SUFFIXES: Final = tuple(NAMELESS)
-"""Suffixes of the files of a figure."""
 
 
 @contextmanager

@@ -17,11 +17,29 @@ LINE: Final = "#D7DBE0"
 PAPER: Final = "#FFFFFF"
 SKY: Final = "#EFF2F6"
 AIM: Final = "#00805D"
+PREDICTION: Final = "#009E73"
+CONFIDENCE: Final = "#8A4F9E"
 
 DASHES: Final = (0, (4, 3))
 """Line style of what is meant, or to be compared with."""
 ROBOT_DASHES: Final = (0, (7, 1.2))
 """Line style of the robot's end, which tells it from the human's in print without colours."""
+
+
+LOOKS: Final = (
+    (ROBOT, "-", "o"),
+    (PREDICTION, "--", "s"),
+    (CONFIDENCE, "-.", "^"),
+    (INK, ":", "D"),
+    ("#E69F00", (0, (6, 1.5)), "v"),
+    ("#56B4E9", (0, (1, 1)), "P"),
+    (FAINT, (0, (3, 1, 1, 1, 1, 1)), "X"),
+)
+"""Colour, line and marker of lines in one picture, in this order; the human's colour is left to two
+people."""
+
+PEOPLE: Final = "two people"
+"""Name of the human-human baseline in pictures and in print."""
 
 
 def rgba(colour: str) -> tuple[float, float, float, float]:

@@ -26,10 +26,7 @@ HUMAN_HUMAN: Final = "human_human"
 """Key of the human-human baseline."""
 
 HUMAN_HUMAN_LABEL: Final = "human-human baseline"
-"""Its name in tables."""
-
-PEOPLE: Final = "two people"
-"""Its name in pictures and in print."""
+"""Its name in tables and pictures."""
 
 BEST_KNOWN: Final = "best_known"
 """Key of the trained reference."""

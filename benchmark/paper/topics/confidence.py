@@ -4,19 +4,12 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
-from colift.benchmark.paper.exhibits import (
-    CONFIDENCE,
-    PREDICTION,
-    Claim,
-    Exhibit,
-    legend,
-    panels,
-    shade,
-)
+from colift.benchmark.paper.exhibits import STEPS, Claim, Exhibit, shade
 from colift.benchmark.paper.topics.timing import MOVING
 from colift.benchmark.paper.watched import SampledLift
 from colift.benchmark.rendering.layout import Layout
-from colift.benchmark.rendering.style import DASHES, FAINT, HUMAN, INK
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import CONFIDENCE, DASHES, FAINT, HUMAN, INK, PREDICTION
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -221,7 +214,9 @@ def pause_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
 def _panels(
     lift: SampledLift, spans: Sequence[tuple[float, float]], label: str, layout: Layout
 ) -> tuple[Figure, tuple[Axes, Axes]]:
-    figure, ((upper,), (lower,)) = panels(layout, ["position [mm]", "confidence C"], [2.2, 1.6])
+    figure, ((upper,), (lower,)) = panels(
+        layout, ["position [mm]", "confidence C"], [2.2, 1.6], x_label=STEPS
+    )
     steps = np.arange(len(lift.samples))
     shade(upper, spans, label)
     shade(lower, spans)

@@ -5,12 +5,13 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.paper.exhibits import CONFIDENCE, Claim, Exhibit, panels, shade
+from colift.benchmark.paper.exhibits import STEPS, Claim, Exhibit, shade
 from colift.benchmark.paper.refilter import confidence_trajectory
 from colift.benchmark.paper.table_one import FORGETTING, FORGETTING_FACTORS, errors
 from colift.benchmark.paper.watched import SampledLift, rms
 from colift.benchmark.rendering.layout import Layout
-from colift.benchmark.rendering.style import HUMAN
+from colift.benchmark.rendering.panels import panels
+from colift.benchmark.rendering.style import CONFIDENCE, HUMAN
 from numpy.typing import ArrayLike
 
 SETTLED: Final = 0.05
@@ -118,6 +119,7 @@ def forgetting_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
         layout,
         ["position [mm]", *(f"φ = {phi:.2f}" for phi in FORGETTING_FACTORS)],
         [1.3, *[0.8] * len(FORGETTING_FACTORS)],
+        x_label=STEPS,
     )
     steps = np.arange(len(lift.samples))
     shade(rows[0][0], [(start, stop)])

@@ -6,9 +6,10 @@ from typing import Any, Final
 
 import numpy as np
 from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS, learned_table, state_of
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit
 from colift.benchmark.paper.table_one import LONGEST_ITERATIONS, MEDIAN_ITERATIONS, TRIALS
 from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
 from colift.benchmark.rendering.style import DASHES, FAINT, HUMAN, INK
 from colift.benchmark.training.q_learning import LearningTrial
 from numpy.typing import NDArray

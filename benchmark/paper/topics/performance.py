@@ -8,11 +8,12 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metrics import stroke_smoothness
 from colift.benchmark.episode.smoothness import sparc
 from colift.benchmark.paper.evidence import Evidence
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit, p_value_text
 from colift.benchmark.paper.table_one import errors, single_lifts
 from colift.benchmark.paper.topics.confidence import moving_confidence
 from colift.benchmark.paper.watched import SampledLift, sampled_lifts
 from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
 from colift.benchmark.rendering.style import FAINT, HUMAN, ROBOT, ROBOT_DASHES
 from colift.benchmark.statistics import Units, mean_of, paired_permutation_p
 from matplotlib.figure import Figure

@@ -2,9 +2,10 @@
 
 from typing import Final
 
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit, p_value_text
 from colift.benchmark.paper.table_one import SubjectRow, TableOne
 from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
 from colift.benchmark.rendering.style import DASHES, HUMAN, INK, ROBOT
 
 CELL: Final = 0.12

@@ -12,12 +12,13 @@ from colift.agents.control.predictor import PredictorParameters
 from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.paper.evidence import Evidence, TimingSetting
-from colift.benchmark.paper.exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit
 from colift.benchmark.paper.refilter import refilter
 from colift.benchmark.paper.table_one import errors
 from colift.benchmark.paper.watched import SampledLift, rms, sampled_lifts
 from colift.benchmark.rendering.layout import Layout
-from colift.benchmark.rendering.style import FAINT
+from colift.benchmark.rendering.panels import panels
+from colift.benchmark.rendering.style import CONFIDENCE, FAINT, PREDICTION
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import matplotlib as mpl
 import pytest
 from colift.base.errors import InputError
-from colift.benchmark.rendering.figures import SUFFIXES, drawn_for, figure_bytes, write_all
-from colift.benchmark.rendering.layout import LAYOUTS, PAGE, SLIDE, Layout, find_layout
+from colift.benchmark.rendering.figures import drawn_for, figure_bytes, write_all
+from colift.benchmark.rendering.layout import LAYOUTS, PAGE, SLIDE, SUFFIXES, Layout, find_layout
 from colift.benchmark.rendering.style import HUMAN, style_axes
 from matplotlib.figure import Figure
 
