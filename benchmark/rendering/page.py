@@ -14,6 +14,7 @@ from importlib.metadata import version
 from importlib.resources import files
 from typing import Any
 
+from colift.benchmark.rendering.formats import FORMATS
 from jinja2 import (
     ChoiceLoader,
     Environment,
@@ -68,7 +69,7 @@ def templates(package: str) -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters.update(breakable=_breakable, hash=content_hash)
+    made.filters.update(FORMATS, breakable=_breakable, hash=content_hash)
     made.globals.update(style=Markup(style()), version=version("colift"))
     return made
 
