@@ -74,9 +74,11 @@ def templates(package: str) -> Environment:
     return made
 
 
-def style() -> str:
-    """Return the style sheet of pages that are one file."""
-    return files(__package__).joinpath("templates", "page.css").read_text(encoding="utf-8")
+def style(*more: str) -> str:
+    """Return the style sheet of pages that are one file, with others of the folder ``static``."""
+    places = (("templates", "page.css"), *(("static", name) for name in more))
+    here = files(__package__)
+    return "".join(here.joinpath(*place).read_text(encoding="utf-8") for place in places)
 
 
 def content_hash(text: str) -> Markup:

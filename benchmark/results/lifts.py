@@ -54,10 +54,9 @@ def worst_first(rmse_mm: Iterable[float]) -> list[int]:
 def worst_of_behaviours(lifts: Iterable[ScoredLift]) -> list[ScoredLift]:
     """Return the worst lift of each behaviour, in order of appearance."""
     known = list(lifts)
-    worst = dict.fromkeys(dict.fromkeys(lift.behaviour for lift in known), known[0])
-    for i in reversed(worst_first(lift.rmse_mm for lift in known)):
-        worst[known[i].behaviour] = known[i]
-    return list(worst.values())
+    ordered = worst_first(lift.rmse_mm for lift in known)
+    worst = {known[i].behaviour: known[i] for i in reversed(ordered)}
+    return [worst[each] for each in dict.fromkeys(lift.behaviour for lift in known)]
 
 
 def failures_by_reason(lifts: Iterable[ScoredLift]) -> list[tuple[str, list[ScoredLift]]]:

@@ -94,7 +94,7 @@ def test_a_policy_is_shown_part_by_part_beside_two_people_and_blend(shown):
     assert parts[0].rmse_mm.mean == pytest.approx(public.rmse_mm.mean)
     assert parts[0].rmse_mm.ci95 == pytest.approx(public.rmse_mm.ci95)
     for mine, theirs in zip(parts, blend["parts"], strict=True):
-        assert mine.blend_mm == pytest.approx(theirs.rmse_mm.mean)
+        assert mine.other_mm == pytest.approx(theirs.rmse_mm.mean)
     assert parts[0].ratio == pytest.approx(public.vs_human.mean)
     assert [entry.season for entry in view["history"]] == ["2026", "2025"]
 
