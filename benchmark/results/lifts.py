@@ -8,6 +8,11 @@ from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.scores import ScoreTable
 
 
+def lift_name(behaviour: str, subject: str, trial: str, seed: int) -> str:
+    """Return the name of a lift, such as ``pause/S3 seed 4``."""
+    return f"{'/'.join(filter(None, (behaviour, subject, trial)))} seed {seed}"
+
+
 @dataclass(frozen=True, kw_only=True)
 class ScoredLift:
     """The outcome of one lift."""
@@ -22,6 +27,11 @@ class ScoredLift:
     """RMSE of two people on this lift [mm]; None if it is not known."""
     failure: str | None
     """Reason of a failure, in the policy's own words if the policy failed."""
+
+    @property
+    def name(self) -> str:
+        """Its name; see :func:`lift_name`."""
+        return lift_name(self.behaviour, self.subject, self.trial, self.seed)
 
     @property
     def ratio(self) -> float | None:

@@ -22,6 +22,7 @@ from colift.benchmark.results.baselines import (
     play_baselines,
     shipped_baselines,
 )
+from colift.benchmark.results.lifts import lift_name
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.verification.deviation import REFERENCES, SCORES
@@ -86,7 +87,7 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
     An incomplete run is a fault in any case: there is no score on part of a suite.
     """
     names = [
-        _name(scene.behaviour, scene.subject.name, scene.trial, seed)
+        one_line(lift_name(scene.behaviour, scene.subject.name, scene.trial, seed))
         for scene in suite.scenarios
         for seed in suite.seeds
     ]
@@ -107,11 +108,7 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
 
 def episode_name(episode: Episode) -> str:
     """Return the name of an episode, such as ``pause/S3 seed 4``."""
-    return _name(episode.behaviour, episode.subject, episode.trial, episode.seed)
-
-
-def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
-    return f"{one_line('/'.join(filter(None, (behaviour, subject, trial))))} seed {seed}"
+    return one_line(lift_name(episode.behaviour, episode.subject, episode.trial, episode.seed))
 
 
 def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:

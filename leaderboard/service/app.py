@@ -10,9 +10,9 @@ from typing import Final
 import anyio.to_thread
 from colift.leaderboard.client import API
 from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.pages.links import STATIC
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import Queue, Quota
-from colift.leaderboard.pages.links import STATIC
 from colift.leaderboard.service import page_routes as pages
 from colift.leaderboard.service import published, submitting
 from colift.leaderboard.service.answers import Health
