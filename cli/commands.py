@@ -21,6 +21,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "channels": "channels:measure_channels",
         "validity": "validity:validity",
         "list": "listing:list_all",
+        "inspect": "inspect:inspect_bundle",
         "render": "render:render_episode",
         "play": "play:play",
         "demonstrate": "demonstrate:demonstrate_lifts",

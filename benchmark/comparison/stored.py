@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from colift.base.errors import InputError, Remedy
-from colift.benchmark.bundle import read_bundle
+from colift.base.errors import InputError
 from colift.benchmark.bundle.files import RESULTS
 from colift.benchmark.bundle.json_text import pick
+from colift.benchmark.bundle.present import read_present
 from colift.benchmark.channels import Channel, channel_name
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
@@ -40,28 +39,11 @@ def read_stored(folder: Path) -> Stored:
         If there is none, it is damaged or incomplete, or its scores are not those of this version
         of colift.
     """
-    if not folder.is_dir():
-        raise InputError(f"{folder}: no such folder; name that of a result bundle")
-    try:
-        bundle = read_bundle(folder)
-        run = bundle.run()
-    except InputError as error:
-        raise InputError(f"{folder}: {error}") from error
+    bundle, run = read_present(folder)
     content = bundle.results
     if not (content["complete"] and run.complete):
         raise InputError(
             f"{folder} has {len(run.episodes)} of {run.suite.size} lifts: run the rest"
-        )
-    scoring = content["scoring"]
-    if scoring != SCORING:
-        fault = f"{folder} has scores of version {scoring}, this colift computes version {SCORING}"
-        if scoring > SCORING:
-            raise InputError(f"{fault}: compare it with a newer colift")
-        raise InputError(fault, remedy=Remedy.RESCORE, target=str(folder))
-    if content["suite_digest"] != run.suite.digest:
-        raise InputError(
-            f"{folder} was played on {content['suite']} with digest {content['suite_digest']}; "
-            f"here that suite has digest {run.suite.digest}: run the policy again"
         )
     step = content["summary"]["step_ms"]
     policy = PolicyResults.of(run.policy, run)
