@@ -11,6 +11,7 @@ from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.channels import CHANNELS
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.over_channels import OverChannel, over_channels
+from colift.benchmark.comparison.tables import policy_cell
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.rendering.layout import PAGE
@@ -32,7 +33,6 @@ from colift.cli.options import (
     chosen_layout,
     chosen_suite,
 )
-from colift.cli.tables.comparison import policy_cell
 from colift.cli.tables.recordings import recordings_json, show_recordings
 from rich.table import Column, Table
 

@@ -21,6 +21,7 @@ from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.playing import Reference, episodes_to_play, play_policies
 from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
+from colift.benchmark.comparison.tables import behaviours_table, differences_table, ranks_table
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
@@ -46,7 +47,6 @@ from colift.cli.options import (
     chosen_suite,
     try_folder,
 )
-from colift.cli.tables.comparison import behaviours_table, differences_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 
 

@@ -8,6 +8,7 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.comparison.compare import compare
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.comparison.tables import behaviours_table, ranks_table
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references import ablation, sweep
 from colift.benchmark.references.ablation import VARIANTS, Ablation, variants
@@ -23,7 +24,6 @@ from colift.benchmark.tables.printing import show, table
 from colift.benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
 from colift.cli.options import Jobs, LayoutName, check_figure, check_new_file, chosen_layout
 from colift.cli.remedies import naming
-from colift.cli.tables.comparison import behaviours_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 from rich.table import Table
 

@@ -9,12 +9,12 @@ from colift.base.errors import InputError
 from colift.benchmark.channels import channel_name
 from colift.benchmark.comparison.formatting import between, digits
 from colift.benchmark.comparison.stored import Stored, read_stored
+from colift.benchmark.comparison.tables import policy_cell
 from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.tables.printing import Cell, left, show, table
 from colift.cli.bundles import mention_others
 from colift.cli.document import print_json
 from colift.cli.options import AsJson
-from colift.cli.tables.comparison import policy_cell
 
 NONE: Final = "none"
 
