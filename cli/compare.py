@@ -1,6 +1,5 @@
 """``colift compare``: a comparison of policies, lift by lift."""
 
-import dataclasses
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,17 +10,17 @@ import typer
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
-from colift.base.registry import POLICIES, STANDARD_SUITE, check_plays, entries, playing
-from colift.benchmark.bundle import is_bundle
+from colift.base.registry import STANDARD_SUITE, check_plays, playing
 from colift.benchmark.channels import Channel
-from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
+from colift.benchmark.comparison.captions import failures, remarks
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
+from colift.benchmark.comparison.entrants import named_apart
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.playing import Reference, episodes_to_play, play_policies
-from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
-from colift.benchmark.comparison.tables import behaviours_table, differences_table, ranks_table
+from colift.benchmark.comparison.stored import Stored, check_same_lifts, stored_among
+from colift.benchmark.comparison.tables import comparison_tables
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
@@ -97,15 +96,15 @@ def compare_policies(
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     named = policies or []
-    bundles = _stored(named)
+    bundles = stored_among(named)
     if bundles and not (suite or seeds or recordings or behaviour or robot):
         episodes = next(iter(bundles.values())).suite
     else:
         episodes = chosen_suite(suite, seeds, recordings, behaviour, robot)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
-    for each in stored:
-        mention_others(each.folder)
+    for folder in bundles:
+        mention_others(Path(folder))
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel
@@ -128,22 +127,13 @@ def compare_policies(
     else:
         _show(comparison)
         for each in stored:
-            print(f"{each.policy.name}: from {each.folder}, not simulated again")
+            print(f"{each.policy.name}: from {each.origin}, not simulated again")
         if out is not None:
             print(f"Page: {out / 'compare.html'}")
     failed = failures(comparison)
     if failed:
         print("\n".join(failed), file=sys.stderr)
         raise typer.Exit(1)
-
-
-def _stored(named: Sequence[str]) -> dict[str, Stored]:
-    """Return the stored results among the named policies, by their folders."""
-    return {
-        text: read_stored(Path(text))
-        for text in named
-        if text not in entries(POLICIES) and is_bundle(Path(text))
-    }
 
 
 def _policies(
@@ -167,16 +157,7 @@ def _policies(
     for text in texts:
         check_plays(text, task)
     specs = {text: checked_policy(text) for text in texts if text not in stored}
-    names = Counter(spec.name for spec in specs.values())
-    names.update(each.policy.name for each in stored.values())
-    # Policies of the same name are distinguished by their place.
-    called = {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
-    return called, [
-        each
-        if names[each.policy.name] == 1
-        else dataclasses.replace(each, policy=dataclasses.replace(each.policy, name=text))
-        for text, each in stored.items()
-    ]
+    return named_apart(specs, stored)
 
 
 def _compare(
@@ -208,12 +189,4 @@ def _compare(
 
 
 def _show(comparison: Comparison) -> None:
-    show(ranks_table(comparison), differences_table(comparison))
-    if len(comparison.behaviours) > 1:
-        show(behaviours_table(comparison))
-    show(
-        verdict(comparison),
-        *roughness(comparison),
-        *goals(comparison),
-        *unit_warnings(comparison),
-    )
+    show(*comparison_tables(comparison), *remarks(comparison))

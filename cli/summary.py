@@ -37,7 +37,7 @@ def summarise_bundles(
         place = stored.policy.name, _column(stored)
         if place in found:
             raise InputError(
-                f"{folder} and {found[place].folder} are both of {place[0]} on {place[1]}"
+                f"{folder} and {found[place].origin} are both of {place[0]} on {place[1]}"
             )
         found[place] = stored
     if as_json:

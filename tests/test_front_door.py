@@ -1,7 +1,9 @@
 """What a user of the package finds: ``import colift``."""
 
+import re
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
 from importlib.metadata import version
 
 import colift
@@ -10,6 +12,7 @@ import pytest
 from colift import colift_v0
 from colift.agents.policies.blend import Blend
 from colift.base.errors import InputError
+from colift.benchmark.rendering.style import HUMAN, ROBOT
 from pettingzoo.test import api_test, parallel_api_test
 
 pytestmark = pytest.mark.smoke
@@ -129,10 +132,7 @@ def test_workers_give_the_same(copied):
 def test_what_it_prints_and_holds(copied):
     text = str(copied)
     assert text.startswith("copy on quick-v1")
-    assert all(
-        name in text
-        for name in ("smooth", "pause", "jerky", "changing_goal", "human-human baseline")
-    )
+    assert all(name in text for name in ("smooth", "pause", "jerky", "changing_goal", "two people"))
     assert f"RMSE {copied.rmse_mm:.2f} mm" in text
     assert not any(line.endswith(" ") for line in text.splitlines())
     low, high = copied.rmse_mm_ci95
@@ -152,9 +152,75 @@ def test_its_rows_and_its_frame(copied):
 
 def test_what_a_notebook_shows(copied):
     page = copied._repr_html_()
-    assert page.startswith("<svg")
-    assert "two humans" in page
-    assert "<pre>copy on quick-v1" in page
+    root = ET.fromstring(f"<div>{page.replace('<br>', '<br/>')}</div>")
+    assert [each.tag.rpartition("}")[2] for each in root] == ["svg", "table", "p", "p"]
+    words = " ".join(root.itertext())
+    assert "two humans" not in words
+    assert "copy on quick-v1" in words
+    assert f"RMSE {copied.rmse_mm:.2f} mm (95 % interval" in words
+    bodies = [[*row.itertext()] for row in root.iter("tr")]
+    assert [row[0] for row in bodies] == [
+        "human",
+        "smooth",
+        "pause",
+        "jerky",
+        "changing_goal",
+        "all",
+    ]
+    assert_neutral(page)
+
+
+def assert_neutral(page):
+    """Check that a view has no background, and no colour that only light or only dark suits."""
+    assert not re.search("background(-color)?: (?!transparent)", page)
+    assert {*re.findall("(?:fill|stroke|color): (#[0-9a-f]+|black|white)", page)} <= {
+        HUMAN.lower(),
+        ROBOT.lower(),
+    }
+
+
+def test_a_comparison_of_an_evaluation_a_name_and_an_object(copied, tmp_path):
+    found = colift.compare(copied, "hold", Blend())
+    assert [each.name for each in found.policies] == ["Blend", "copy", "hold"]
+    assert found.policies[1].rmse_mm.mean == pytest.approx(copied.rmse_mm)
+    assert str(found).startswith("3 policies on quick-v1")
+    assert repr(found).startswith("<Comparison of 3 policies: Blend is the most level")
+    page = found._repr_html_()
+    root = ET.fromstring(f"<div>{page.replace('<br>', '<br/>')}</div>")
+    assert len([*root.iter("table")]) == 3
+    assert "two people" in " ".join(root.itertext())
+    assert_neutral(page)
+    found.save(tmp_path / "made", layout="column")
+    rows = (tmp_path / "made" / "compare.csv").read_text().splitlines()
+    assert len(rows) == 1 + len(found.rows())
+    assert r"\begin{table}" in (tmp_path / "made" / "compare.tex").read_text()
+    assert "suite quick-v1" in found.bibtex
+
+
+def test_policies_of_one_name_are_told_apart_by_their_place(copied):
+    found = colift.compare(copied, copied)
+    assert [each.name for each in found.policies] == ["copy (1)", "copy (2)"]
+
+
+@pytest.mark.parametrize(
+    ("policies", "told"),
+    [
+        (("copy",), "at least two policies to compare, got 1"),
+        (("copy", "copy"), "copy is named twice"),
+        (("copy", "nobody"), "unknown policy 'nobody'"),
+        (("copy", "pose_wrist"), "pose_wrist"),
+    ],
+)
+def test_what_cannot_be_compared_is_refused_in_words(policies, told):
+    with pytest.raises(InputError, match=told):
+        colift.compare(*policies)
+
+
+def test_lifts_that_differ_are_not_compared(copied):
+    with pytest.raises(InputError, match="the evaluation of copy has the lifts of quick-v1"):
+        colift.compare(copied, "hold", suite="standard-v1")
+    with pytest.raises(InputError, match="was played over no channel, not over the channel home"):
+        colift.compare(copied, "hold", channel="home")
 
 
 def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):

@@ -6,7 +6,6 @@ from typing import Final
 from colift.benchmark.comparison.front import FrontPoint, exact, pareto_front
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.comparison.ranking import Ranking, SubsetKind, rank_policies
-from colift.benchmark.rendering.style import PEOPLE
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 
 MOST_SUBJECTS: Final = 10
@@ -69,7 +68,7 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
     ]
     others = [
         FrontPoint(
-            name=pictured(name),
+            name=name,
             rmse_mm=overall.unranked_rmse_mm[name],
             second=exact(baseline.means[second.name]),
             kind="baseline" if name == HUMAN_HUMAN_LABEL else "reference",
@@ -77,11 +76,6 @@ def _points(results: PairedResults, overall: Ranking) -> tuple[FrontPoint, ...]:
         for name, baseline in results.unranked.items()
     ]
     return (*policies, *others)
-
-
-def pictured(name: str) -> str:
-    """Return the name of a policy, of the human-human baseline or of a reference in pictures."""
-    return PEOPLE if name == HUMAN_HUMAN_LABEL else name
 
 
 def _parts(results: PairedResults, kind: SubsetKind, labels: list[str]) -> tuple[Ranking, ...]:

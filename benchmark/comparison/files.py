@@ -109,13 +109,18 @@ def _part(ranking: Ranking) -> dict[str, Any]:
     }
 
 
-def comparison_csv(comparison: Comparison) -> str:
-    """Return the content of ``compare.csv``: one row for each policy in each ranking.
+def comparison_rows(comparison: Comparison) -> list[dict[str, object]]:
+    """Return one row for each policy in each ranking: on all lifts, by behaviour, by subject.
 
-    Where there is no value, as in the difference of the best to itself, the field is empty.
+    Where there is no value, as in the difference of the best to itself, it is None.
     """
     rankings = (comparison.overall, *comparison.behaviours, *comparison.subjects)
-    rows = [dict(_row(ranking, ranked)) for ranking in rankings for ranked in ranking.policies]
+    return [dict(_row(ranking, ranked)) for ranking in rankings for ranked in ranking.policies]
+
+
+def comparison_csv(comparison: Comparison) -> str:
+    """Return the content of ``compare.csv``: the rows, where a field without a value is empty."""
+    rows = comparison_rows(comparison)
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()

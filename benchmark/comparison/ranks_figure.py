@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Final
 
-from colift.benchmark.comparison.compare import Comparison, pictured
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import digits
 from colift.benchmark.rendering.layout import Layout
 from colift.benchmark.rendering.style import DASHES, FAINT, HUMAN, INK, PAPER, ROBOT, style_axes
@@ -95,7 +95,7 @@ def _lines(comparison: Comparison) -> list[_Line]:
     ]
     others = [
         _Line(
-            name=pictured(name),
+            name=name,
             rank="",
             error=error,
             marker=DIAMOND if name == HUMAN_HUMAN_LABEL else SQUARE,

@@ -35,14 +35,14 @@ def ranks_table(comparison: Comparison) -> Table:
         title(comparison),
         (
             Column("#", justify="right"),
-            Column("policy", overflow="fold", min_width=len(HUMAN_HUMAN_LABEL)),
+            Column("policy", overflow="fold", min_width=NAME),
             *("RMSE mm", "95 %", "vs_human"),
             *(each.symbol for each in comparison.results.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
-        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
+        + f" vs_human: RMSE over that of {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 
@@ -110,6 +110,14 @@ def _rank(overall: Ranking, ranked: RankedPolicy) -> str:
 def _metric(metric: Metric, ranked: RankedPolicy) -> str:
     mean = ranked.scores.metric(metric.name).mean
     return metric.text(mean) + (" †" if ranked.partial(metric) else "")
+
+
+def comparison_tables(comparison: Comparison) -> list[Table]:
+    """Return all tables: ranks, differences and, of several behaviours, the error on each."""
+    tables = [ranks_table(comparison), differences_table(comparison)]
+    if len(comparison.behaviours) > 1:
+        tables.append(behaviours_table(comparison))
+    return tables
 
 
 def differences_table(comparison: Comparison) -> Table:

@@ -7,7 +7,7 @@ from typing import Final
 
 from colift.base.tex import tex
 from colift.benchmark.comparison.captions import people_text, provenance, title
-from colift.benchmark.comparison.compare import Comparison, pictured
+from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.ranking import RankedPolicy
 from colift.benchmark.episode.metric import Metric
 from colift.benchmark.rendering.layout import Layout
@@ -78,7 +78,7 @@ def _unranked(comparison: Comparison, name: str, metrics: tuple[Metric, ...]) ->
     rmse = overall.unranked_rmse_mm[name]
     return [
         "",
-        tex(pictured(name)),
+        tex(name),
         f"{rmse.mean:.2f}",
         _interval(rmse),
         f"{overall.unranked_vs_human[name].mean:.2g}",

@@ -7,7 +7,7 @@ from dataclasses import asdict
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.references.sweep import NAMES, Swept
 from colift.benchmark.rendering.layout import Layout
-from colift.benchmark.rendering.panels import draw_lines, draw_people, legend, panels
+from colift.benchmark.rendering.panels import draw_lines, draw_people, panels, shared_legend
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -36,7 +36,7 @@ def sweep_figure(swept: Sequence[Swept], human_human: float, layout: Layout) -> 
     first.set_xlabel(f"latency [ms], control period {1000 * CONTROL_PERIOD:.0f} ms")
     second.set_xlabel(f"control period [ms], latency {1000 * LATENCY:.0f} ms")
     first.set_ylim(bottom=0)
-    legend(first)
+    shared_legend(first)
     return figure
 
 

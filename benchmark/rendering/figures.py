@@ -5,14 +5,16 @@ text stays text, in a font that is named or embedded as TrueType. Equal figures 
 whatever the day, the machine's fonts or its settings of matplotlib.
 """
 
+import html
 import io
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Final
 
 from colift.benchmark.rendering.layout import SUFFIXES, Layout
-from colift.benchmark.rendering.style import FAINT, INK, PAPER
+from colift.benchmark.rendering.style import FAINT, INK, LINE, PAPER, SKY
 from matplotlib import style
 from matplotlib.figure import Figure
 
@@ -40,6 +42,9 @@ FILES: Final[dict[str, Any]] = {
     "pdf.fonttype": 42,
 }
 
+GREYS: Final = {INK.lower(): 1.0, FAINT.lower(): 0.7, LINE.lower(): 0.2, SKY.lower(): 0.07}
+"""Opacity of the text's colour in place of each grey."""
+
 NAMELESS: Final[dict[str, dict[str, None]]] = {
     ".png": {"Software": None},
     ".svg": {"Creator": None, "Date": None},
@@ -57,6 +62,33 @@ def drawn_for(layout: Layout) -> Iterator[None]:
     size: dict[str, Any] = {"font.size": layout.letters}
     with style.context(["default", {**LOOK, **size}]):
         yield
+
+
+def neutral_svg(figure: Figure, title: str) -> str:
+    """Return a figure as an SVG element of a page, light or dark: its greys are those of the text.
+
+    The title is read to those who do not see the figure. It also makes the names of the figure's
+    parts unique on the page.
+    """
+    buffer = io.StringIO()
+    with style.context(["default", {**FILES, "svg.hashsalt": title}]):
+        figure.savefig(buffer, format="svg", transparent=True, metadata=NAMELESS[".svg"])
+    text = buffer.getvalue()
+    text = re.sub("(fill|stroke): (#[0-9a-f]{6})", _neutral, text[text.index("<svg") :])
+    label = html.escape(title)
+    return text.replace(
+        "<svg ", f'<svg role="img" aria-label="{label}" style="max-width: 100%; height: auto" ', 1
+    )
+
+
+def _neutral(colour: re.Match[str]) -> str:
+    """Return a colour of SVG; a grey is that of the text, faint, and white is nothing."""
+    part, value = colour.groups()
+    if value == PAPER.lower():
+        return f"{part}: none"
+    if value not in GREYS:
+        return colour[0]
+    return f"{part}: currentColor; {part}-opacity: {GREYS[value]}"
 
 
 def figure_bytes(figure: Figure, suffix: str, title: str) -> bytes:

@@ -104,6 +104,19 @@ def legend(axes: Axes, title: str = "") -> None:
             return
 
 
+def shared_legend(axes: Axes) -> None:
+    """Put the legend of all panels above them, in as few rows as the figure's width allows."""
+    figure = axes.get_figure()
+    assert isinstance(figure, Figure)
+    for columns in range(6, 0, -1):
+        made = figure.legend(
+            *axes.get_legend_handles_labels(), loc="outside upper left", ncols=columns
+        )
+        if columns == 1 or made.get_window_extent().width <= FULL * figure.bbox.width:
+            return
+        made.remove()
+
+
 def draw_lines(axes: Axes, lines: Mapping[str, Sequence[tuple[float, float]]]) -> None:
     """Draw a line through some points for each name, with its colour, line style and marker."""
     for i, (name, points) in enumerate(lines.items()):

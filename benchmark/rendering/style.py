@@ -39,7 +39,7 @@ LOOKS: Final = (
 people."""
 
 PEOPLE: Final = "two people"
-"""Name of the human-human baseline in pictures and in print."""
+"""Name of the human-human baseline in tables, in pictures and in print."""
 
 
 def rgba(colour: str) -> tuple[float, float, float, float]:

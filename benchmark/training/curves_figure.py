@@ -8,6 +8,7 @@ from colift.benchmark.rendering.panels import legend, panels
 from colift.benchmark.rendering.style import FAINT, ROBOT
 from colift.benchmark.training.course import Course
 from matplotlib.figure import Figure
+from matplotlib.ticker import EngFormatter
 
 
 def curves_figure(courses: Sequence[Course], layout: Layout) -> Figure:
@@ -15,9 +16,9 @@ def curves_figure(courses: Sequence[Course], layout: Layout) -> Figure:
 
     The mean is over the steps that all seeds have reached, between their points by interpolation.
     """
-    figure, ((axes,),) = panels(layout, ["RMSE [mm]"], [2.4], x_label="steps, millions")
+    figure, ((axes,),) = panels(layout, ["RMSE [mm]"], [2.4], x_label="steps")
     curves = [np.array(each.curve) for each in courses]
-    seeds = [(curve[:, 0] / 1e6, curve[:, 2]) for curve in curves]
+    seeds = [(curve[:, 0], curve[:, 2]) for curve in curves]
     several = len(seeds) > 1
     for i, (steps, errors) in enumerate(seeds):
         look = {"color": FAINT, "lw": 0.8} if several else {"color": ROBOT, "lw": 1.8}
@@ -28,5 +29,6 @@ def curves_figure(courses: Sequence[Course], layout: Layout) -> Figure:
         mean = np.mean([np.interp(shared, *each) for each in seeds], axis=0)
         axes.plot(shared, mean, color=ROBOT, lw=1.8, label=f"mean of {len(seeds)} seeds")
         legend(axes)
+    axes.xaxis.set_major_formatter(EngFormatter())
     axes.set_ylim(bottom=0)
     return figure

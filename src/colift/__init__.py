@@ -4,6 +4,7 @@
 name                   what it is
 ====================== ==========================================================================
 :func:`evaluate`       scores a policy: an object, a class, a name, a file or a folder
+:func:`compare`        ranks policies, result bundles and evaluations on the same lifts
 :func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
     from colift import colift_v0, twin
     from colift.colift_v0 import env, parallel_env
+    from colift.comparing import Comparison, compare
     from colift.evaluation import Evaluation, evaluate
     from colift.listing import list_humans, list_policies, list_suites
     from colift.registration import make
@@ -33,9 +35,11 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Comparison",
     "Evaluation",
     "__version__",
     "colift_v0",
+    "compare",
     "env",
     "evaluate",
     "list_humans",
@@ -47,6 +51,8 @@ __all__ = [
 ]
 
 _PLACES: Final = {
+    "Comparison": "comparing",
+    "compare": "comparing",
     "Evaluation": "evaluation",
     "env": "colift_v0",
     "evaluate": "evaluation",

@@ -1,6 +1,5 @@
 """The outcome of an evaluation, for people and programs."""
 
-import html
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -67,11 +66,7 @@ class Evaluation:
         InputError
             If pandas is not installed.
         """
-        try:
-            pandas = import_module("pandas")
-        except ImportError as error:
-            raise InputError("a DataFrame needs pandas: pip install pandas") from error
-        return pandas.DataFrame(self.rows())
+        return frame_of(self.rows())
 
     def __str__(self) -> str:
         """Return the table and the lines below it."""
@@ -87,7 +82,26 @@ class Evaluation:
         )
 
     def _repr_html_(self) -> str:
-        """Return the view of a notebook: the picture and the table."""
+        """Return the view of a notebook: the picture, the table and the lines below it."""
+        from colift.benchmark.tables.html import lines_html, table_html
         from colift.picture import evaluation_picture
 
-        return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"
+        metrics = self.run.suite.metrics
+        picture = evaluation_picture(self.run, self.results)
+        lines = lines_html(results_text(self.results, metrics), *reported_failures(self.run))
+        return f"{picture}\n{table_html(results_table(self.results, metrics))}\n{lines}"
+
+
+def frame_of(rows: list[dict[str, object]]) -> Any:
+    """Return rows as a ``pandas.DataFrame``.
+
+    Raises
+    ------
+    InputError
+        If pandas is not installed.
+    """
+    try:
+        pandas = import_module("pandas")
+    except ImportError as error:
+        raise InputError("a DataFrame needs pandas: pip install pandas") from error
+    return pandas.DataFrame(rows)

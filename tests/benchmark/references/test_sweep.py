@@ -11,7 +11,8 @@ from colift.benchmark.references.sweep import (
     sweep,
     timings,
 )
-from colift.benchmark.references.sweep_picture import sweep_figure, sweep_json
+from colift.benchmark.references.sweep_figure import sweep_figure, sweep_json
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training.data import Timing
@@ -50,10 +51,10 @@ def test_the_picture_has_a_line_for_each_in_both_panels():
         for i, name in enumerate(NAMES)
         for t in timings()
     ]
-    figure = sweep_figure(swept, 9.0, "Title")
+    figure = sweep_figure(swept, 9.0, PAGE)
     for axes, count in zip(figure.axes, (5, 5), strict=True):
         lines = {line.get_label(): line for line in axes.get_lines()}
-        assert set(lines) == {"human-human baseline", *NAMES}
+        assert set(lines) == {"two people", *NAMES}
         for i, name in enumerate(NAMES):
             assert list(lines[name].get_ydata()) == [i] * count
         assert list(lines["oracle"].get_xdata()) == sorted(lines["oracle"].get_xdata())
