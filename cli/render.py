@@ -4,34 +4,37 @@ import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Final
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
-from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
 from colift.base.registry import check_plays
 from colift.benchmark.bundle.files import is_bundle
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
-from colift.benchmark.episode.turns import is_policy_failure
-from colift.benchmark.execution.batches import play
 from colift.benchmark.execution.progress import progress_bar
+from colift.benchmark.rendering.layout import Layout
 from colift.benchmark.results.lifts import lift_name, worst_first
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
-from colift.benchmark.suites.catalogue import make_scenario
-from colift.benchmark.tables.failures import printed_lines
+from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.level.task import LEVEL
+from colift.cli.beside import checked_look, draw_beside, others_in, played_lift
 from colift.cli.bundles import mention_others
 from colift.cli.completion import behaviours, people, policies
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
+    LayoutName,
     RobotName,
     check_folder,
     check_output,
+    chosen_layout,
 )
+
+if TYPE_CHECKING:
+    from colift.benchmark.rendering.film import Look
 
 HTML: Final = ".html"
 
@@ -45,6 +48,7 @@ OF_A_LIFT: Final = (
     "robot",
     "latency",
     "control_period",
+    "beside",
 )
 """Options that a bundle decides."""
 
@@ -63,8 +67,9 @@ def render_episode(
         Path,
         typer.Option(
             metavar="FILE",
-            help="Film (.gif, .mp4), picture (.png) or page with a player (.html); for several "
-            "lifts a page, or a folder for pictures.",
+            help="Film (.gif, .webp, .mp4), picture (.png), figure for print (.svg, .pdf), page "
+            "with a player (.html) or model in 3-D (.glb); for several lifts a page, or a folder "
+            "for pictures.",
         ),
     ],
     worst: Annotated[
@@ -72,13 +77,13 @@ def render_episode(
         typer.Option(metavar="N", help="Draw the N worst lifts of a bundle; default: 1."),
     ] = None,
     behaviour: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="NAME",
-            help="The human's behaviour, or recorded:FILE.csv#TRIAL.",
+            help="The human's behaviour, or recorded:FILE.csv#TRIAL; default: the task's first.",
             autocompletion=behaviours,
         ),
-    ] = "smooth",
+    ] = None,
     scenario: Annotated[
         str | None, typer.Option(help="The old name of --behaviour.", hidden=True)
     ] = None,
@@ -92,19 +97,45 @@ def render_episode(
     task: Annotated[
         str, typer.Option(metavar="NAME", help="The task of the lift; see 'colift list'.")
     ] = LEVEL.name,
+    camera: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="View of pictures and films: side, close, front (behind the robot) or top.",
+        ),
+    ] = "side",
+    speed: Annotated[
+        float, typer.Option(metavar="X", help="Speed of a film, relative to the lift.")
+    ] = 1.0,
+    plays: Annotated[
+        int,
+        typer.Option(metavar="N", help="Times that a .gif or .webp plays; 0: without end."),
+    ] = 0,
+    beside: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="POLICY",
+            help="Another policy in the same lift, side by side; repeatable. 'human' is a second "
+            "person.",
+            autocompletion=policies,
+        ),
+    ] = None,
+    layout: LayoutName | None = None,
     robot: RobotName = None,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
-    """Draw a lift from the side, with the heights of both ends over time.
+    """Draw a lift, with the heights of both ends over time and all that its task asks for.
 
     Exit code 1, and no file, if the policy fails. The lifts of a bundle are drawn as they were
     recorded, without the policy; what does not follow from the recorded actions is reported.
 
     Example: colift render blend --behaviour pause --out lift.gif
     """
+    size = None if layout is None else chosen_layout(layout)
+    look = checked_look(out, camera, speed, plays, beside or ())
     if is_bundle(Path(policy)):
-        _render_bundle(context, Path(policy), 1 if worst is None else worst, out)
+        _render_bundle(context, Path(policy), 1 if worst is None else worst, out, look, size)
         return
     if worst is not None:
         raise InputError(f"--worst is for a result bundle, and {policy} is none")
@@ -113,11 +144,17 @@ def render_episode(
         raise InputError(f"--seed must not be negative, got {seed}")
     holder = robot or DEFAULT_ROBOT
     make_robot(holder)
-    played = make_scenario(scenario or behaviour, subject, holder, control_period, latency, task)
+    named = behaviour or scenario or make_task(task).behaviours[0]
+    played = make_scenario(named, subject, holder, control_period, latency, task)
     check_plays(policy, task)
     spec = checked_policy(policy)
+    if beside:
+        with reported_interrupt(f"{out} is not drawn"):
+            draw_beside(out, [(spec, played), *others_in(played, beside)], seed, look)
+        return
     with reported_interrupt(f"{out} is not drawn"):
-        episode = _drawn(spec, played, seed, out)
+        episode = played_lift(spec, played, seed)
+        _write(out, episode, played, spec.name, look, size)
     _report(out, episode)
 
 
@@ -128,57 +165,35 @@ def _report(out: Path, episode: Episode) -> None:
     print(f"; ended early: {episode.failure}" if episode.failure else "")
 
 
-def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path) -> Episode:
-    """Play a lift, draw it, and return it."""
-    (episode,) = play(spec, played, (seed,))
-    if is_policy_failure(episode.failure):
-        print(f"nothing to draw: the policy failed: {episode.failure}", file=sys.stderr)
-        for line in printed_lines(episode.log):
-            print(line, file=sys.stderr)
-        raise typer.Exit(1)
-    if out.suffix == HTML:
-        _write_page(out, [(episode, played)], spec.name)
-    else:
-        _film(out, episode, played, spec.name)
-    return episode
-
-
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
 def _check(out: Path) -> None:
-    from colift.benchmark.rendering.writing import SUFFIXES, check_film
+    from colift.leaderboard.replays.lift_file import check_lift_file
 
-    if out.suffix not in (*SUFFIXES, HTML):
-        known = ", ".join((*SUFFIXES, HTML))
-        raise InputError(f"cannot write {out}: its suffix must be one of {known}")
-    if out.suffix == HTML:
-        check_output(out)
-    else:
-        check_film(out)
+    check_lift_file(out)
+    check_output(out)
 
 
-def _film(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from colift.benchmark.rendering.film import film_episode, shown_frames
+def _write(
+    out: Path, episode: Episode, played: Scenario, name: str, look: "Look", layout: Layout | None
+) -> None:
+    from colift.leaderboard.replays.lift_file import pictures_in, write_lift
 
-    pictures = 1 if out.suffix == ".png" else len(shown_frames(episode))
-    with progress_bar("drawing", pictures) as progress:
-        film_episode(out, episode, played, name, drawn=progress)
-
-
-def _write_page(out: Path, lifts: Sequence[tuple[Episode, Scenario]], name: str) -> None:
-    from colift.leaderboard.replays.html import replay_page
-    from colift.leaderboard.replays.replay import play_ghost, replay_content
-
-    replays = [
-        replay_content(episode, played, play_ghost(played, episode.seed), policy=name)
-        for episode, played in lifts
-    ]
-    out.write_text(replay_page(replays), encoding="utf-8")
+    with progress_bar("drawing", pictures_in(out, episode, look)) as progress:
+        write_lift(out, episode, played, name, look=look, layout=layout, drawn=progress)
 
 
-def _render_bundle(context: typer.Context, folder: Path, worst: int, out: Path) -> None:
+def _render_bundle(
+    context: typer.Context,
+    folder: Path,
+    worst: int,
+    out: Path,
+    look: "Look",
+    layout: Layout | None,
+) -> None:
     """Draw the worst lifts of a bundle, and report what does not follow from their actions."""
     from colift.benchmark.bundle.present import read_present
     from colift.benchmark.verification.replaying import replayed_lifts
+    from colift.leaderboard.replays.lift_file import write_page
 
     for name in OF_A_LIFT:
         source = context.get_parameter_source(name)
@@ -201,10 +216,10 @@ def _render_bundle(context: typer.Context, folder: Path, worst: int, out: Path) 
             for finding in lift.findings[:1]:
                 print(f"note: it does not follow from the actions: {finding}", file=sys.stderr)
         if out.suffix == HTML:
-            _write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
+            write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
         for lift, file in zip(lifts, files, strict=True):
             if out.suffix != HTML:
-                _film(file, lift.episode, lift.scenario, run.policy)
+                _write(file, lift.episode, lift.scenario, run.policy, look, layout)
             _report(file, lift.episode)
 
 

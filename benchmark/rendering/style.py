@@ -4,6 +4,7 @@ Blue and vermillion are distinct with any kind of colour vision (M. Okabe and K.
 universal design", 2008).
 """
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
@@ -41,10 +42,22 @@ people."""
 PEOPLE: Final = "two people"
 """Name of the human-human baseline in tables, in pictures and in print."""
 
+COLOURS: Final[Mapping[str, str]] = {"human": HUMAN, "robot": ROBOT}
+"""The colour of each end of the table."""
+
 
 def rgba(colour: str) -> tuple[float, float, float, float]:
     """Return a colour ``#rrggbb`` as red, green, blue and opacity within 0 to 1."""
     red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return red, green, blue, 1.0
+
+
+def mixed(colour: str, other: str, share: float) -> tuple[float, float, float, float]:
+    """Return a colour with another: ``share`` of the first, within 0 to 1."""
+    red, green, blue = (
+        share * one + (1 - share) * two
+        for one, two in zip(rgba(colour)[:3], rgba(other)[:3], strict=True)
+    )
     return red, green, blue, 1.0
 
 

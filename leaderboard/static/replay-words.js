@@ -67,6 +67,16 @@
     return `robot ${whole} mm too ${millimetres < 0 ? "low" : "high"}`;
   };
 
+  colift.hurdleWords = ({ label, missed }) =>
+    missed === null ? `${label} not reached` : `${label} missed by ${Math.round(1000 * missed)} mm`;
+
+  // When a hurdle opens; its height while it is open; then by how much it was missed.
+  colift.hurdleState = function ({ height, missed, opens, closes }) {
+    if (opens > 0) return `in ${opens.toFixed(1)} s`;
+    if (closes > 0) return `${Math.round(1000 * height)} mm`;
+    return missed === null ? "missed" : `off ${Math.round(1000 * missed)} mm`;
+  };
+
   colift.element = function (name, attributes, ...children) {
     const node = document.createElement(name);
     for (const [key, value] of Object.entries(attributes || {})) {

@@ -198,6 +198,7 @@
         ["error", goal ? "error" : "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
         ["human-human", "two people", `${number(ghostGap, 1)} mm`],
         ...state.drawn.map((each) => ["target", each.label, `${number(1000 * each.value, 0)} mm`]),
+        ...state.hurdles.map((each) => [each.where, each.label, colift.hurdleState(each)]),
         ["target", now.goals ? "goal" : "human's intention", state.target === null ? "none yet" : `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];

@@ -135,7 +135,12 @@ def test_both_signals_keep_what_is_finished(slow, tmp_path, number, code):
 
 @pytest.mark.parametrize(
     ("suffix", "number"),
-    [("gif", signal.SIGTERM), ("mp4", signal.SIGTERM), ("mp4", signal.SIGINT)],
+    [
+        ("gif", signal.SIGTERM),
+        ("webp", signal.SIGTERM),
+        ("mp4", signal.SIGTERM),
+        ("mp4", signal.SIGINT),
+    ],
 )
 def test_a_film_that_is_ended_leaves_nothing(tmp_path, suffix, number):
     if suffix == "mp4":
