@@ -44,6 +44,13 @@ def check_size(path: Path, layout: Layout) -> None:
         assert abs(picture.width - 300 * layout.width) <= 1
 
 
+def assert_neutral(page: str) -> None:
+    """Check that a view has no background, and no colour that only light or only dark suits."""
+    assert not re.search("background(-color)?: (?!transparent)", page)
+    named = re.findall("(?:fill|stroke|color): (#[0-9a-f]+|black|white)", page)
+    assert {*named} <= {style.HUMAN.lower(), style.ROBOT.lower()}
+
+
 def _check_svg(path: Path, layout: Layout, pictures: int) -> set[str]:
     root = ET.fromstring(path.read_bytes())
     width, height = (float(root.attrib[name].removesuffix("pt")) for name in ("width", "height"))

@@ -1,6 +1,5 @@
 """What a user of the package finds: ``import colift``."""
 
-import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
@@ -12,8 +11,9 @@ import pytest
 from colift import colift_v0
 from colift.agents.policies.blend import Blend
 from colift.base.errors import InputError
-from colift.benchmark.rendering.style import HUMAN, ROBOT
 from pettingzoo.test import api_test, parallel_api_test
+
+from tests.printed import assert_neutral
 
 pytestmark = pytest.mark.smoke
 
@@ -168,59 +168,6 @@ def test_what_a_notebook_shows(copied):
         "all",
     ]
     assert_neutral(page)
-
-
-def assert_neutral(page):
-    """Check that a view has no background, and no colour that only light or only dark suits."""
-    assert not re.search("background(-color)?: (?!transparent)", page)
-    assert {*re.findall("(?:fill|stroke|color): (#[0-9a-f]+|black|white)", page)} <= {
-        HUMAN.lower(),
-        ROBOT.lower(),
-    }
-
-
-def test_a_comparison_of_an_evaluation_a_name_and_an_object(copied, tmp_path):
-    found = colift.compare(copied, "hold", Blend())
-    assert [each.name for each in found.policies] == ["Blend", "copy", "hold"]
-    assert found.policies[1].rmse_mm.mean == pytest.approx(copied.rmse_mm)
-    assert str(found).startswith("3 policies on quick-v1")
-    assert repr(found).startswith("<Comparison of 3 policies: Blend is the most level")
-    page = found._repr_html_()
-    root = ET.fromstring(f"<div>{page.replace('<br>', '<br/>')}</div>")
-    assert len([*root.iter("table")]) == 3
-    assert "two people" in " ".join(root.itertext())
-    assert_neutral(page)
-    found.save(tmp_path / "made", layout="column")
-    rows = (tmp_path / "made" / "compare.csv").read_text().splitlines()
-    assert len(rows) == 1 + len(found.rows())
-    assert r"\begin{table}" in (tmp_path / "made" / "compare.tex").read_text()
-    assert "suite quick-v1" in found.bibtex
-
-
-def test_policies_of_one_name_are_told_apart_by_their_place(copied):
-    found = colift.compare(copied, copied)
-    assert [each.name for each in found.policies] == ["copy (1)", "copy (2)"]
-
-
-@pytest.mark.parametrize(
-    ("policies", "told"),
-    [
-        (("copy",), "at least two policies to compare, got 1"),
-        (("copy", "copy"), "copy is named twice"),
-        (("copy", "nobody"), "unknown policy 'nobody'"),
-        (("copy", "pose_wrist"), "pose_wrist"),
-    ],
-)
-def test_what_cannot_be_compared_is_refused_in_words(policies, told):
-    with pytest.raises(InputError, match=told):
-        colift.compare(*policies)
-
-
-def test_lifts_that_differ_are_not_compared(copied):
-    with pytest.raises(InputError, match="the evaluation of copy has the lifts of quick-v1"):
-        colift.compare(copied, "hold", suite="standard-v1")
-    with pytest.raises(InputError, match="was played over no channel, not over the channel home"):
-        colift.compare(copied, "hold", channel="home")
 
 
 def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):

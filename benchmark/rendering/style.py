@@ -23,7 +23,7 @@ CONFIDENCE: Final = "#8A4F9E"
 
 DASHES: Final = (0, (4, 3))
 """Line style of what is meant, or to be compared with."""
-ROBOT_DASHES: Final = (0, (7, 1.2))
+ROBOT_DASHES: Final = (0, (3.5, 1))
 """Line style of the robot's end, which tells it from the human's in print without colours."""
 
 

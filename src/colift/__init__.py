@@ -5,6 +5,7 @@ name                   what it is
 ====================== ==========================================================================
 :func:`evaluate`       scores a policy: an object, a class, a name, a file or a folder
 :func:`compare`        ranks policies, result bundles and evaluations on the same lifts
+:func:`render`         draws one lift: a picture in a notebook, and files of every kind
 :func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
@@ -31,12 +32,14 @@ if TYPE_CHECKING:
     from colift.evaluation import Evaluation, evaluate
     from colift.listing import list_humans, list_policies, list_suites
     from colift.registration import make
+    from colift.rendering import RenderedLift, render
 
     __version__: str
 
 __all__ = [
     "Comparison",
     "Evaluation",
+    "RenderedLift",
     "__version__",
     "colift_v0",
     "compare",
@@ -47,6 +50,7 @@ __all__ = [
     "list_suites",
     "make",
     "parallel_env",
+    "render",
     "twin",
 ]
 
@@ -54,6 +58,7 @@ _PLACES: Final = {
     "Comparison": "comparing",
     "compare": "comparing",
     "Evaluation": "evaluation",
+    "RenderedLift": "rendering",
     "env": "colift_v0",
     "evaluate": "evaluation",
     "list_humans": "listing",
@@ -61,6 +66,7 @@ _PLACES: Final = {
     "list_suites": "listing",
     "make": "registration",
     "parallel_env": "colift_v0",
+    "render": "rendering",
 }
 """The module of each public name."""
 
