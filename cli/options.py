@@ -30,6 +30,13 @@ MOST: Final = 100_000
 LATENCY_OPTION: Final = typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
 PERIOD_OPTION: Final = typer.Option(metavar="S", help="Time between two decisions, in seconds.")
 
+LAYOUT_OPTION: Final = typer.Option(
+    "--for",
+    metavar="column|page|slide",
+    help="Size of figures: a column (3.5 inches), a page (7 inches) or a slide (16:9).",
+    autocompletion=layouts,
+)
+
 PolicyName = Annotated[
     str,
     typer.Argument(
@@ -114,15 +121,7 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),
 ]
-LayoutName = Annotated[
-    str,
-    typer.Option(
-        "--for",
-        metavar="column|page|slide",
-        help="Size of the figures: a column (3.5 inches), a page (7 inches) or a slide (16:9).",
-        autocompletion=layouts,
-    ),
-]
+LayoutName = Annotated[str, LAYOUT_OPTION]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
 

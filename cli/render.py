@@ -25,8 +25,8 @@ from colift.cli.completion import behaviours, people, policies
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     LATENCY_OPTION,
+    LAYOUT_OPTION,
     PERIOD_OPTION,
-    LayoutName,
     RobotName,
     check_folder,
     check_output,
@@ -120,7 +120,7 @@ def render_episode(
             autocompletion=policies,
         ),
     ] = None,
-    layout: LayoutName | None = None,
+    layout: Annotated[str | None, LAYOUT_OPTION] = None,
     robot: RobotName = None,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,

@@ -40,7 +40,8 @@ SLIDE: Final = Layout(name="slide", width=6.3, height=3.54375, letters=10.0)
 """A slide of 16:9 in the size of LaTeX's beamer, 160 x 90 mm. On the 13.3 inches of other programs,
 where a figure is enlarged with its letters, these have 21 points."""
 
-SUFFIXES: Final = (".png", ".svg", ".pdf")
+VECTOR: Final = (".svg", ".pdf")
+SUFFIXES: Final = (".png", *VECTOR)
 """Suffixes of the files of a figure."""
 
 LAYOUTS: Final[Mapping[str, Layout]] = {each.name: each for each in (COLUMN, PAGE, SLIDE)}

@@ -10,7 +10,7 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.rendering.figures import write_figure
 from colift.benchmark.rendering.film import DEFAULT_LOOK, FPS, Look, film_episode, shown_frames
 from colift.benchmark.rendering.gltf import check_model, write_model
-from colift.benchmark.rendering.layout import PAGE, Layout
+from colift.benchmark.rendering.layout import PAGE, VECTOR, Layout
 from colift.benchmark.rendering.lift_figure import lift_figure, lift_title
 from colift.benchmark.rendering.writing import SUFFIXES, check_film
 from colift.leaderboard.replays.html import replay_page
@@ -18,8 +18,6 @@ from colift.leaderboard.replays.replay import play_ghost, replay_content
 
 HTML: Final = ".html"
 MODEL: Final = ".glb"
-VECTOR: Final = (".svg", ".pdf")
-STILLS: Final = (".png", *VECTOR)
 KNOWN: Final = tuple(dict.fromkeys((*SUFFIXES, *VECTOR, HTML, MODEL)))
 """Suffixes of the files of a lift."""
 
@@ -85,7 +83,7 @@ def write_lift(
 
 def pictures_in(path: Path, episode: Episode, look: Look = DEFAULT_LOOK) -> int:
     """Return the number of pictures that are drawn for a file of a lift."""
-    film = path.suffix in SUFFIXES and path.suffix not in STILLS
+    film = path.suffix in SUFFIXES and path.suffix != ".png"
     return len(shown_frames(episode, FPS / look.speed)) if film else 1
 
 
