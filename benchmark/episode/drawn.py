@@ -58,3 +58,12 @@ def error_words(drawn: Sequence[DrawnSeries]) -> str:
     if both is not None:
         return f"{both[0].label} from the {both[1].label}, towards the robot"
     return "robot's end above the " + ("human's" if goal is None else goal.label)
+
+
+def is_scored(drawn: Sequence[DrawnSeries]) -> bool:
+    """Return whether the error of :func:`shown_error` is the one that the task scores.
+
+    Else it is the height difference of the ends, in a task that scores other distances.
+    """
+    goal = intended_far_end(drawn) or ball_and_target(drawn)
+    return goal is not None or not drawn

@@ -4,6 +4,8 @@
 name                   what it is
 ====================== ==========================================================================
 :func:`evaluate`       scores a policy: an object, a class, a name, a file or a folder
+:func:`load`           the same of a result bundle, from ``colift run --out``
+:func:`inspect`        the reasons of a score: worst lifts, strengths and weaknesses
 :func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
     from typing import Any, Final
 
     from colift import colift_v0, twin
+    from colift.bundles import Inspection, inspect, load
     from colift.colift_v0 import env, parallel_env
     from colift.evaluation import Evaluation, evaluate
     from colift.listing import list_humans, list_policies, list_suites
@@ -34,13 +37,16 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Evaluation",
+    "Inspection",
     "__version__",
     "colift_v0",
     "env",
     "evaluate",
+    "inspect",
     "list_humans",
     "list_policies",
     "list_suites",
+    "load",
     "make",
     "parallel_env",
     "twin",
@@ -48,11 +54,14 @@ __all__ = [
 
 _PLACES: Final = {
     "Evaluation": "evaluation",
+    "Inspection": "bundles",
     "env": "colift_v0",
     "evaluate": "evaluation",
+    "inspect": "bundles",
     "list_humans": "listing",
     "list_policies": "listing",
     "list_suites": "listing",
+    "load": "bundles",
     "make": "registration",
     "parallel_env": "colift_v0",
 }
