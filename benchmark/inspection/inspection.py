@@ -66,6 +66,7 @@ class Inspection:
     folder: Path | None
     """The bundle that claims the scores; None of a run of this process."""
 
+    # Tables and page are made of inspections: their modules import this one.
     def __str__(self) -> str:
         """Return the tables and the lines between them."""
         from colift.benchmark.inspection.text import inspection_text

@@ -29,7 +29,8 @@ MOST_REASONS: Final = 5
 def inspection_text(found: Inspection) -> Iterator[RenderableType]:
     """Yield the tables and texts of an inspection, to be printed by :func:`.show`."""
     yield f"{title(found)}: {headline(found.results.summary)}"
-    yield verdict(found)
+    if said := verdict(found):
+        yield said
     yield _worst_table(found)
     scored = [f"{each.lift.name}: {distances(found, each)}" for each in found.worst]
     if shown(found) != "error":
