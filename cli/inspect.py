@@ -36,7 +36,7 @@ def inspect_bundle(
     Everything is beside two people on the same lifts, who are simulated here: this takes about as
     long as the run itself. The policy is not run, and its numbers are those of the bundle.
 
-    Example: 'colift inspect r/blend --out why.html', after 'colift run blend --out r/blend'.
+    Example: colift inspect mine --out why.html
     """
     if worst < 1:
         raise InputError(f"--worst must be 1 or more, got {worst}")

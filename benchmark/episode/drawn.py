@@ -52,14 +52,6 @@ def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float6
     return np.asarray(trace.robot_end - meant)
 
 
-def error_words(drawn: Sequence[DrawnSeries]) -> str:
-    """Return a description of the error of :func:`shown_error`."""
-    both, goal = ball_and_target(drawn), intended_far_end(drawn)
-    if both is not None:
-        return f"{both[0].label} from the {both[1].label}, towards the robot"
-    return "robot's end above the " + ("human's" if goal is None else goal.label)
-
-
 def is_scored(drawn: Sequence[DrawnSeries]) -> bool:
     """Return whether the error of :func:`shown_error` is the one that the task scores.
 
@@ -67,3 +59,11 @@ def is_scored(drawn: Sequence[DrawnSeries]) -> bool:
     """
     goal = intended_far_end(drawn) or ball_and_target(drawn)
     return goal is not None or not drawn
+
+
+def error_words(drawn: Sequence[DrawnSeries]) -> str:
+    """Return a description of the error of :func:`shown_error`."""
+    both, goal = ball_and_target(drawn), intended_far_end(drawn)
+    if both is not None:
+        return f"{both[0].label} from the {both[1].label}, towards the robot"
+    return "robot's end above the " + ("human's" if goal is None else goal.label)
