@@ -100,7 +100,7 @@ def render_episode(
     Exit code 1, and no file, if the policy fails. The lifts of a bundle are drawn as they were
     recorded, without the policy; what does not follow from the recorded actions is reported.
 
-    Example: colift render blend --behaviour pause --out lift.gif
+    Example: colift render blend --behaviour pause --out lift.png
     """
     if is_bundle(Path(policy)):
         _render_bundle(context, Path(policy), 1 if worst is None else worst, out)
