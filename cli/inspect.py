@@ -36,7 +36,7 @@ def inspect_bundle(
     Everything is beside two people on the same lifts, who are simulated here: this takes about as
     long as the run itself. The policy is not run, and its numbers are those of the bundle.
 
-    Example: colift run blend --suite quick-v1 --out blend, then colift inspect blend --out why.html
+    Example: colift inspect mine --out why.html
     """
     if worst < 1:
         raise InputError(f"--worst must be 1 or more, got {worst}")
@@ -73,4 +73,5 @@ def _inspect(folder: Path, worst: int, out: Path | None, jobs: int | None) -> No
         with progress_bar("drawing", shown) as progress:
             page = inspection_page(found, progress)
         write_output(out, page)
-    print(f"Next: colift render {name} --worst {shown} --out worst.html")
+    if any(each.moment is not None for each in found.worst):
+        print(f"Next: colift render {name} --worst {shown} --out worst.html")

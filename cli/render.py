@@ -38,7 +38,6 @@ if TYPE_CHECKING:
 
 HTML: Final = ".html"
 
-
 OF_A_LIFT: Final = (
     "behaviour",
     "scenario",
@@ -130,7 +129,7 @@ def render_episode(
     Exit code 1, and no file, if the policy fails. The lifts of a bundle are drawn as they were
     recorded, without the policy; what does not follow from the recorded actions is reported.
 
-    Example: colift render blend --behaviour pause --out lift.gif
+    Example: colift render blend --behaviour pause --out lift.png
     """
     size = None if layout is None else chosen_layout(layout)
     look = checked_look(out, camera, speed, plays, beside or ())

@@ -1,13 +1,14 @@
 """Titles, captions and sentences of an inspection, for its tables and its page."""
 
+import math
 from collections.abc import Sequence
 from typing import Final
 
 from colift.benchmark.channels import channel_name
-from colift.benchmark.episode.drawn import error_words
-from colift.benchmark.episode.metric import drawn_series
+from colift.benchmark.episode.drawn import error_words, is_scored
+from colift.benchmark.episode.metric import LEADING, drawn_series, on_boards
 from colift.benchmark.inspection.inspection import Inspection, WorstLift
-from colift.benchmark.rendering.formats import signed, words
+from colift.benchmark.rendering.formats import number, signed, words
 from colift.benchmark.results.strata import StratumScore, vs_human_mean
 
 PARTS: Final = (
@@ -16,11 +17,10 @@ PARTS: Final = (
 )
 """Meaning of the columns of strengths and weaknesses."""
 
-PHASES: Final = (
-    "A phase begins with an event of the person's plan. Time, error: its share of the frames and "
-    "of the squared error, over all lifts; frames after a failure are in no phase."
-)
-"""Meaning of the table of phases."""
+
+def shown(found: Inspection) -> str:
+    """Return what pictures show: the error that is scored, or else the tilt of the table."""
+    return "error" if is_scored(drawn_series(found.run.suite.metrics)) else "tilt"
 
 
 def title(found: Inspection) -> str:
@@ -44,11 +44,23 @@ def provenance(found: Inspection) -> str:
 
 def worst_caption(found: Inspection) -> str:
     """Return the meaning of the table of worst lifts."""
-    error = error_words(drawn_series(found.run.suite.metrics))
+    metrics, noun = found.run.suite.metrics, shown(found)
+    scored = "" if noun == "error" else f" RMSE: {metrics[LEADING].meaning}."
     return (
         "The lifts with the largest RMSE, each beside two people on the same lift, with the moment "
-        f"of its largest error or of its failure. Error: {error}, in mm, beside that of two people "
-        "at the same time."
+        f"of its largest {noun} or of its failure. {noun.capitalize()}: "
+        f"{error_words(drawn_series(metrics))}, in mm, beside that of two people at the same time."
+        f"{scored}"
+    )
+
+
+def phases_caption(found: Inspection) -> str:
+    """Return the meaning of the table of phases."""
+    noun = shown(found)
+    return (
+        f"A phase begins with an event of the person's plan. Time, {noun}: its share of the frames "
+        f"and of the squared {noun}, over all lifts; frames after a failure are in no phase. "
+        f"RMS: of the {noun} in the phase, in mm."
     )
 
 
@@ -79,13 +91,27 @@ def _extremes(kind: str, named: Sequence[tuple[str, StratumScore]]) -> str:
     )
 
 
-def moment_words(worst: WorstLift) -> str:
-    """Return the worst moment of a lift as sentences."""
+def moment_words(found: Inspection, worst: WorstLift) -> str:
+    """Return the worst moment of a lift as sentences, with the distances that are scored."""
     moment, failure = worst.moment, worst.episode.failure
     if moment is None:
-        return f"It ended before its first frame: {failure}."
-    said = "Largest error" if failure is None else "Failed"
+        return f"It ended before its first frame: {failure}"
+    said = f"Largest {shown(found)}" if failure is None else "Failed"
     return (
         f"{said} at {moment.time_s:.2f} s: {signed(moment.error_mm, 0)} mm, two people "
-        f"{signed(moment.human_human_mm, 0)} mm. The person: {moment.doing}."
+        f"{signed(moment.human_human_mm, 0)} mm. The person: {moment.doing}. "
+        f"{distances(found, worst)}"
+    ).rstrip()
+
+
+def distances(found: Inspection, worst: WorstLift) -> str:
+    """Return the distances that a task scores instead of the shown error; empty if it has none."""
+    if shown(found) == "error":
+        return ""
+    mine, theirs = worst.episode.scores, worst.human_human.scores
+    said = (
+        (metric.label, number(mine[metric.name]), number(theirs[metric.name]))
+        for metric in on_boards(found.run.suite.metrics)
+        if metric.unit == "mm" and not math.isnan(mine[metric.name])
     )
+    return " ".join(f"{label} {mm} mm, two people {people} mm." for label, mm, people in said)

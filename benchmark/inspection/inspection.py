@@ -12,7 +12,6 @@ from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.writing import indices
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.runner import Run, finished
 from colift.benchmark.inspection import WORST
 from colift.benchmark.inspection.moments import (
@@ -43,6 +42,8 @@ class WorstLift:
     lift: ScoredLift
     episode: Episode
     scenario: Scenario
+    human_human: Episode
+    """The same lift with two people."""
     moment: Moment | None
     """Its worst moment; None if it ended before its first frame."""
 
@@ -65,6 +66,7 @@ class Inspection:
     folder: Path | None
     """The bundle that claims the scores; None of a run of this process."""
 
+    # Tables and page are made of inspections: their modules import this one.
     def __str__(self) -> str:
         """Return the tables and the lines between them."""
         from colift.benchmark.inspection.text import inspection_text
@@ -148,15 +150,16 @@ def inspect_run(
             WorstLift(
                 lift=lifts[row],
                 episode=run.episodes[row],
-                scenario=played[row].scenario,
+                scenario=due.scenario,
+                human_human=people[due.place],
                 moment=worst_moment(
                     run.episodes[row],
-                    played[row].scenario,
-                    events[played[row].place],
-                    people[played[row].place],
+                    due.scenario,
+                    events[due.place],
+                    people[due.place].trace,
                 ),
             )
-            for row in rows
+            for row, due in ((row, played[row]) for row in rows)
         ),
         parts=part_scores(results.strata, lambda part: scores.part(part.behaviour).error),
         phases=phase_scores(chain.from_iterable(mine), theirs),
@@ -171,12 +174,12 @@ def _beside(
     kept: Container[int],
     executor: Executor | None,
     progress: Callable[[int], None],
-) -> tuple[dict[int, Trace], list[PhaseError]]:
+) -> tuple[dict[int, Episode], list[PhaseError]]:
     """Let two people play the lifts at the places of ``events``.
 
-    Return their traces at the places in ``kept``, and their errors in all phases.
+    Return their lifts at the places in ``kept``, and their errors in all phases.
     """
-    traces: dict[int, Trace] = {}
+    found: dict[int, Episode] = {}
     errors: list[PhaseError] = []
     lifts = finished(
         partner_spec(suite.scenarios[0].task),
@@ -189,5 +192,5 @@ def _beside(
         scenario = suite.at(place).scenario
         errors += phase_errors(events[place], error_of(scenario, episode.trace))
         if place in kept:
-            traces[place] = episode.trace
-    return traces, errors
+            found[place] = episode
+    return found, errors

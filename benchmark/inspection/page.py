@@ -39,7 +39,7 @@ def pictured_lifts(
     """Yield the worst lifts with their pictures; ``drawn`` is called with 1 after each."""
     for each in found.worst:
         source = _still(each, found.run.policy)
-        yield PicturedLift(lift=each.lift, moment=captions.moment_words(each), source=source)
+        yield PicturedLift(lift=each.lift, moment=captions.moment_words(found, each), source=source)
         drawn(1)
 
 
@@ -68,8 +68,8 @@ def inspection_page(found: Inspection, drawn: Callable[[int], None] = lambda pic
             [each.rmse_mm for each in found.parts],
             [mark for each in found.parts for mark in each.marks],
         ),
-        phases_caption=captions.PHASES,
-        phases_header=("phase", "time", "error", "RMSE mm", "two people mm"),
+        phases_caption=captions.phases_caption(found),
+        phases_header=("phase", "time", captions.shown(found), "RMS mm", "two people"),
         phases=_rows(found.phases),
         failures=found.failures,
         most_reasons=MOST_REASONS,

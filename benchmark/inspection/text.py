@@ -1,18 +1,20 @@
 """An inspection as tables and text for a terminal."""
 
 from collections.abc import Iterator
+from typing import Final
 
 from colift.benchmark.bundle import one_line
 from colift.benchmark.inspection.captions import (
     PARTS,
-    PHASES,
+    distances,
+    phases_caption,
     provenance,
+    shown,
     title,
     verdict,
     worst_caption,
 )
 from colift.benchmark.inspection.inspection import Inspection, WorstLift
-from colift.benchmark.inspection.phases import PhaseScore
 from colift.benchmark.rendering.formats import words
 from colift.benchmark.results.headline import headline
 from colift.benchmark.results.parts import PartScore
@@ -20,24 +22,35 @@ from colift.benchmark.tables.printing import Cell, counted, left, optional_numbe
 from rich.console import RenderableType
 from rich.table import Table
 
+MOST_REASONS: Final = 5
+"""Number of reasons of failures that are shown."""
+
 
 def inspection_text(found: Inspection) -> Iterator[RenderableType]:
     """Yield the tables and texts of an inspection, to be printed by :func:`.show`."""
     yield f"{title(found)}: {headline(found.results.summary)}"
-    yield verdict(found)
+    if said := verdict(found):
+        yield said
     yield _worst_table(found)
+    scored = [f"{each.lift.name}: {distances(found, each)}" for each in found.worst]
+    if shown(found) != "error":
+        yield "\n".join([*scored, ""])
     yield _parts_table(found.parts)
     if found.phases:
-        yield _phases_table(found.phases)
+        yield _phases_table(found)
     yield provenance(found)
-    for reason, lifts in found.failures:
+    for reason, lifts in found.failures[:MOST_REASONS]:
         yield f"{counted(len(lifts), 'lift')} failed, first {lifts[0].name}: {one_line(reason)}"
 
 
 def _worst_table(found: Inspection) -> Table:
     return table(
         "Worst lifts",
-        ("lift", "RMSE mm", "two\npeople", "at s", "error mm", "two\npeople", left("the person")),
+        (
+            *("lift", "RMSE mm", "two\npeople"),
+            *("at s", f"{shown(found)} mm", "two\npeople"),
+            left("the person"),
+        ),
         map(_worst_row, found.worst),
         caption=worst_caption(found),
     )
@@ -81,10 +94,10 @@ def _part_row(each: PartScore) -> list[Cell]:
     ]
 
 
-def _phases_table(phases: tuple[PhaseScore, ...]) -> Table:
+def _phases_table(found: Inspection) -> Table:
     return table(
         "Phases of a lift",
-        ("phase", "time", "error", "RMSE mm", "two people"),
+        ("phase", "time", shown(found), "RMS mm", "two people"),
         [
             (
                 words(each.name),
@@ -93,7 +106,7 @@ def _phases_table(phases: tuple[PhaseScore, ...]) -> Table:
                 f"{each.rmse_mm:.1f}",
                 optional_number(each.human_human_mm, ".1f"),
             )
-            for each in phases
+            for each in found.phases
         ],
-        caption=PHASES,
+        caption=phases_caption(found),
     )

@@ -1,9 +1,11 @@
 """Single lifts of a run, each beside two people on the same lift."""
 
 import operator
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from colift.benchmark.episode.turns import STEP
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.scores import ScoreTable
 
@@ -70,9 +72,13 @@ def worst_of_behaviours(lifts: Iterable[ScoredLift]) -> list[ScoredLift]:
 
 
 def failures_by_reason(lifts: Iterable[ScoredLift]) -> list[tuple[str, list[ScoredLift]]]:
-    """Return the lifts that failed by the reason, the most frequent reason first."""
+    """Return the lifts that failed by the reason, the most frequent reason first.
+
+    A reason is as in its first lift, with the step; the same in another step is the same reason.
+    """
     found: dict[str, list[ScoredLift]] = {}
     for lift in lifts:
         if lift.failure is not None:
-            found.setdefault(lift.failure, []).append(lift)
-    return sorted(found.items(), key=lambda each: -len(each[1]))
+            found.setdefault(re.sub(rf"^{STEP}\d+: ", "", lift.failure), []).append(lift)
+    by_first = [(str(some[0].failure), some) for some in found.values()]
+    return sorted(by_first, key=lambda each: -len(each[1]))
