@@ -29,6 +29,7 @@ extensions = [
     "http_api",
     "metrics_table",
     "json_schema",
+    "moving",
     "recorded",
     "rooms",
     "session",

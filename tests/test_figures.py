@@ -16,6 +16,8 @@ QUESTIONS = ROOT / "leaderboard" / "pages" / "templates" / "open.md"
 MINUS = "\N{MINUS SIGN}"
 INCLUDED = r"^```\{literalinclude\} /figures/(\S+)$"
 PICTURE = r"!\[[^\]]*\]\([^)]*figures/([^)]+)\)"
+MOVING = r"^(?:```\{moving\}|:still:) /figures/(\S+)$"
+EMBEDDED = r"(?:src|srcset)=\"docs/figures/([^\"]+)\""
 QUOTED = r"\{figure\}`([^|`]+)\|([^`]+)`"
 
 
@@ -27,7 +29,11 @@ def words(text):
 def shown(page):
     """Return the names of the files of figures that a page shows."""
     text = page.read_text()
-    return re.findall(INCLUDED, text, re.MULTILINE) + re.findall(PICTURE, text)
+    return [
+        name
+        for pattern in (INCLUDED, PICTURE, MOVING, EMBEDDED)
+        for name in re.findall(pattern, text, re.MULTILINE)
+    ]
 
 
 def printed(name):

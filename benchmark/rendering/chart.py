@@ -104,7 +104,7 @@ class Chart:
         self._drawn = drawn
         self._hurdles = drawn_hurdles(drawn, trace)
         self._rolling = ball_and_target(drawn)
-        self.times: NDArray[np.float64] = np.arange(1, len(trace.human_end) + 1) * FRAME
+        self.times = np.arange(1, len(trace.human_end) + 1, dtype=np.float64) * FRAME
         """End of each frame [s]."""
 
     @property
@@ -189,8 +189,8 @@ class Chart:
         low, high = _range([*every, *bars], least=20.0)
         room = ROOM * (high - low) if bars else 0.0
         axes.set_ylim(low - room, high + room)
-        for each in self._hurdles:
-            self._bar(axes, pen, each)
+        for hurdle in self._hurdles:
+            self._bar(axes, pen, hurdle)
         self._style(axes, pen, "height [mm]", keys)
 
     def _places(self, axes: "Axes", pen: Pen, ball: DrawnSeries, target: DrawnSeries) -> None:
@@ -214,9 +214,17 @@ class Chart:
         style: str | tuple[int, tuple[float, ...]] = "-",
     ) -> Artist:
         """Draw a curve, and return its key: in full strength, whatever that of the curve."""
-        look = {"color": colour, "lw": width * pen.scale, "ls": style}
-        axes.plot(self.times, values, alpha=pen.opacity, zorder=width + 1, **look)
-        return Line2D([], [], label=label, **look)
+        thick = width * pen.scale
+        axes.plot(
+            self.times,
+            values,
+            color=colour,
+            lw=thick,
+            ls=style,
+            alpha=pen.opacity,
+            zorder=width + 1,
+        )
+        return Line2D([], [], color=colour, lw=thick, ls=style, label=label)
 
     def _area(
         self,

@@ -184,7 +184,8 @@ def _animate(
 
     nodes = {node["name"]: index for index, node in enumerate(tree["nodes"])}
     clock = accessor(times, "SCALAR")
-    samplers, channels = [], []
+    samplers: list[dict[str, int]] = []
+    channels: list[dict[str, Any]] = []
     for name, track in tracks.items():
         node = tree["nodes"][nodes[name]]
         node.pop("matrix", None)
@@ -204,7 +205,7 @@ def _animate(
 
 def _continuous(turns: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return unit quaternions whose signs do not change from one to the next."""
-    units = turns / np.linalg.norm(turns, axis=1, keepdims=True)
+    units: NDArray[np.float64] = turns / np.linalg.norm(turns, axis=1, keepdims=True)
     signs = np.where((units[1:] * units[:-1]).sum(axis=1) < 0.0, -1.0, 1.0)
     units[1:] *= np.cumprod(signs)[:, None]
     return units

@@ -108,11 +108,11 @@ def box(half: tuple[float, float, float]) -> Mesh:
             corners = [(-1, -sign), (1, -sign), (1, sign), (-1, sign)]
             square = [sign * normal + a * first + b * second for a, b in corners]
             faces.append((np.array(square) * half, np.tile(sign * normal, (4, 1))))
-    first = 4 * np.arange(6)[:, None, None]
+    corner = 4 * np.arange(6)[:, None, None]
     return Mesh(
         vertices=np.concatenate([face for face, _ in faces]),
         normals=np.concatenate([normals for _, normals in faces]),
-        triangles=(first + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3),
+        triangles=(corner + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3),
     )
 
 

@@ -1,10 +1,10 @@
 """Writing of pictures to files: GIF, WebP, MP4 and PNG."""
 
 import importlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from colift.base.errors import InputError
@@ -15,8 +15,8 @@ from PIL import Image
 COLOURS: Final = 256
 """Colours of a GIF, shared by its pictures, so that none flickers."""
 
-QUALITY: Final = 82
-"""Quality of a WebP, of 100."""
+WEBP: Final[Mapping[str, Any]] = {"quality": 80, "kmin": 999, "kmax": 1000}
+"""Quality of a WebP, of 100, and its distance of whole pictures: it holds changes instead."""
 
 SAMPLES: Final = 5
 """Number of pictures from which the colours of a film are chosen."""
@@ -88,7 +88,7 @@ def _write_gif(path: Path, pictures: Iterable[Picture], fps: float, plays: int) 
     palette = sample.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
     first, *rest = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     # The file has the number of repetitions; a film without it plays once.
-    again = {} if plays == 1 else {"loop": max(plays - 1, 0)}
+    again: dict[str, Any] = {} if plays == 1 else {"loop": max(plays - 1, 0)}
     first.save(path, save_all=True, append_images=rest, duration=10 * round(100 / fps), **again)
 
 
@@ -100,7 +100,7 @@ def _write_webp(path: Path, pictures: Iterable[Picture], fps: float, plays: int)
         append_images=rest,
         duration=round(1000 / fps),
         loop=plays,
-        quality=QUALITY,
+        **WEBP,
     )
 
 
