@@ -1,9 +1,9 @@
 """
-From a score into a paper
-=========================
+From a score to its reasons, and into a paper
+=============================================
 
-A policy is scored, compared with others on the same lifts, and drawn in one of them. Each result
-shows itself in a notebook, and writes the files that a paper needs.
+A policy is scored, its errors are explained, and it is compared with others on the same lifts. Each
+result shows itself in a notebook, light or dark, and writes the files that a paper needs.
 """
 
 from pathlib import Path
@@ -16,6 +16,12 @@ import colift
 
 evaluation = colift.evaluate("blend")
 evaluation
+
+# %%
+# Its reasons: the worst lifts and moments, strengths and weaknesses, beside two people. For a
+# result bundle of ``colift run --out``, ``colift.load(FOLDER)`` returns the evaluation.
+
+colift.inspect(evaluation)
 
 # %%
 # A comparison takes policies by name, objects, evaluations and the folders of result bundles. What

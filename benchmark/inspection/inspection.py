@@ -82,6 +82,8 @@ class Inspection:
     def _repr_html_(self) -> str:
         """Return the view of a notebook: pictures of the worst lifts, and the text."""
         from colift.benchmark.inspection.page import pictured_lifts
+        from colift.benchmark.inspection.text import inspection_text
+        from colift.benchmark.tables.html import html_of
 
         pictures = "".join(
             f'<figure style="margin: 0 0 1em"><img style="max-width: 100%" src="{each.source}" '
@@ -90,7 +92,7 @@ class Inspection:
             for each in pictured_lifts(self)
             if each.source
         )
-        return f"{pictures}<pre>{html.escape(str(self))}</pre>"
+        return f"{pictures}{html_of(*inspection_text(self))}"
 
     def page(self) -> str:
         """Return the same as an HTML file that needs nothing else."""

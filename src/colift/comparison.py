@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rich.console import RenderableType
+
 from colift.benchmark.comparison import compare
 from colift.benchmark.comparison.captions import failures, remarks, verdict
 from colift.benchmark.comparison.ranking import RankedPolicy
@@ -71,8 +73,7 @@ class Comparison:
 
     def __str__(self) -> str:
         """Return the tables and the lines below them."""
-        content = self.content
-        return text_of(*comparison_tables(content), *remarks(content), *failures(content))
+        return text_of(*self._parts())
 
     def __repr__(self) -> str:
         """Return the verdict in one line."""
@@ -84,10 +85,14 @@ class Comparison:
         from colift.benchmark.comparison.ranks_figure import ranks_figure
         from colift.benchmark.rendering.figures import drawn_for, neutral_svg
         from colift.benchmark.rendering.layout import PAGE
-        from colift.benchmark.tables.html import lines_html, table_html
+        from colift.benchmark.tables.html import html_of
 
-        content = self.content
         with drawn_for(PAGE):
-            picture = neutral_svg(ranks_figure(content, PAGE), picture_title(content))
-        tables = "\n".join(map(table_html, comparison_tables(content)))
-        return f"{picture}\n{tables}\n{lines_html(*remarks(content), *failures(content))}"
+            figure = ranks_figure(self.content, PAGE)
+        picture = neutral_svg(figure, picture_title(self.content))
+        return f"{picture}\n{html_of(*self._parts())}"
+
+    def _parts(self) -> tuple[RenderableType, ...]:
+        """Return the tables and the lines below them."""
+        content = self.content
+        return (*comparison_tables(content), *remarks(content), *failures(content))

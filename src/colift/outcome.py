@@ -4,6 +4,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
+from rich.console import RenderableType
+
 from colift.base.errors import InputError
 from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.table import table_row, treated
@@ -70,9 +72,7 @@ class Evaluation:
 
     def __str__(self) -> str:
         """Return the table and the lines below it."""
-        metrics = self.run.suite.metrics
-        lines = (results_text(self.results, metrics), *reported_failures(self.run))
-        return text_of(results_table(self.results, metrics), *lines)
+        return text_of(*self._parts())
 
     def __repr__(self) -> str:
         """Return policy, suite and error in one line."""
@@ -83,13 +83,16 @@ class Evaluation:
 
     def _repr_html_(self) -> str:
         """Return the view of a notebook: the picture, the table and the lines below it."""
-        from colift.benchmark.tables.html import lines_html, table_html
+        from colift.benchmark.tables.html import html_of
         from colift.picture import evaluation_picture
 
+        return f"{evaluation_picture(self.run, self.results)}\n{html_of(*self._parts())}"
+
+    def _parts(self) -> tuple[RenderableType, ...]:
+        """Return the table and the lines below it."""
         metrics = self.run.suite.metrics
-        picture = evaluation_picture(self.run, self.results)
-        lines = lines_html(results_text(self.results, metrics), *reported_failures(self.run))
-        return f"{picture}\n{table_html(results_table(self.results, metrics))}\n{lines}"
+        lines = (results_text(self.results, metrics), *reported_failures(self.run))
+        return (results_table(self.results, metrics), *lines)
 
 
 def frame_of(rows: list[dict[str, object]]) -> Any:
