@@ -39,12 +39,15 @@ def checked_look(out: Path, camera: str, speed: float, plays: int, beside: Seque
         If a value is out of range, or the file is neither a picture nor a film.
     """
     from colift.benchmark.rendering.film import Look
+    from colift.benchmark.rendering.layout import VECTOR
     from colift.benchmark.rendering.writing import SUFFIXES
 
     look = Look(camera=camera, speed=speed, plays=plays)
-    if out.suffix not in SUFFIXES and (look != Look() or beside):
+    usual = Look(camera=camera) if out.suffix in VECTOR else Look()
+    if out.suffix not in SUFFIXES and (look != usual or beside):
+        options = "--speed," if out.suffix in VECTOR else "--camera, --speed,"
         raise InputError(
-            f"--camera, --speed, --plays and --beside are for {', '.join(SUFFIXES)}, not for {out}"
+            f"{options} --plays and --beside are for {', '.join(SUFFIXES)}, not for {out}"
         )
     return look
 

@@ -22,6 +22,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "validity": "validity:validity",
         "pairs": "pairs:pairs",
         "list": "listing:list_all",
+        "inspect": "inspect:inspect_bundle",
         "render": "render:render_episode",
         "play": "play:play",
         "demonstrate": "demonstrate:demonstrate_lifts",

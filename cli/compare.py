@@ -1,6 +1,5 @@
 """``colift compare``: a comparison of policies, lift by lift."""
 
-import dataclasses
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,19 +10,21 @@ import typer
 from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
-from colift.base.registry import POLICIES, STANDARD_SUITE, check_plays, entries, playing
-from colift.benchmark.bundle import is_bundle
+from colift.base.registry import STANDARD_SUITE, check_plays, playing
 from colift.benchmark.channels import Channel
-from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
+from colift.benchmark.comparison.captions import failures, remarks
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
+from colift.benchmark.comparison.entrants import named_apart
 from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.paired_results import PolicyResults
 from colift.benchmark.comparison.playing import Reference, episodes_to_play, play_policies
-from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
+from colift.benchmark.comparison.stored import Stored, check_same_lifts, stored_among
+from colift.benchmark.comparison.tables import comparison_tables
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
@@ -37,14 +38,15 @@ from colift.cli.options import (
     Behaviours,
     ChannelName,
     Jobs,
+    LayoutName,
     Recordings,
     RobotName,
     Seeds,
     chosen_channel,
+    chosen_layout,
     chosen_suite,
     try_folder,
 )
-from colift.cli.tables.comparison import behaviours_table, differences_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 
 
@@ -85,27 +87,33 @@ def compare_policies(
     jobs: Jobs = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Folder for compare.html, .png, .csv and .json."),
+        typer.Option(
+            metavar="DIR",
+            help="Folder for compare.html, .csv and .json, the figures (.png, .svg, .pdf), and "
+            "compare.tex and .bib for LaTeX.",
+        ),
     ] = None,
+    layout: LayoutName = PAGE.name,
     as_json: AsJson = False,
 ) -> None:
     """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
     named = policies or []
-    bundles = _stored(named)
+    bundles = stored_among(named)
     if bundles and not (suite or seeds or recordings or as_recorded or behaviour or robot):
         episodes = next(iter(bundles.values())).suite
     else:
         episodes = chosen_suite(suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
-    for each in stored:
-        mention_others(each.folder)
+    for folder in bundles:
+        mention_others(Path(folder))
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
+    size = chosen_layout(layout)
     if out is not None:
         # The files need matplotlib, which is slow to load.
         from colift.benchmark.comparison.files import write_comparison
@@ -115,28 +123,19 @@ def compare_policies(
     results = [each.policy for each in stored]
     comparison = _compare(specs, results, episodes, limits, network, jobs, as_json)
     if out is not None:
-        write_comparison(out, comparison)
+        write_comparison(out, comparison, size)
     if as_json:
         print_json(comparison_json(comparison))
     else:
         _show(comparison)
         for each in stored:
-            print(f"{each.policy.name}: from {each.folder}, not simulated again")
+            print(f"{each.policy.name}: from {each.origin}, not simulated again")
         if out is not None:
             print(f"Page: {out / 'compare.html'}")
     failed = failures(comparison)
     if failed:
         print("\n".join(failed), file=sys.stderr)
         raise typer.Exit(1)
-
-
-def _stored(named: Sequence[str]) -> dict[str, Stored]:
-    """Return the stored results among the named policies, by their folders."""
-    return {
-        text: read_stored(Path(text))
-        for text in named
-        if text not in entries(POLICIES) and is_bundle(Path(text))
-    }
 
 
 def _policies(
@@ -160,16 +159,7 @@ def _policies(
     for text in texts:
         check_plays(text, task)
     specs = {text: checked_policy(text) for text in texts if text not in stored}
-    names = Counter(spec.name for spec in specs.values())
-    names.update(each.policy.name for each in stored.values())
-    # Policies of the same name are distinguished by their place.
-    called = {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
-    return called, [
-        each
-        if names[each.policy.name] == 1
-        else dataclasses.replace(each, policy=dataclasses.replace(each.policy, name=text))
-        for text, each in stored.items()
-    ]
+    return named_apart(specs, stored)
 
 
 def _compare(
@@ -201,12 +191,4 @@ def _compare(
 
 
 def _show(comparison: Comparison) -> None:
-    show(ranks_table(comparison), differences_table(comparison))
-    if len(comparison.behaviours) > 1:
-        show(behaviours_table(comparison))
-    show(
-        verdict(comparison),
-        *roughness(comparison),
-        *goals(comparison),
-        *unit_warnings(comparison),
-    )
+    show(*comparison_tables(comparison), *remarks(comparison))

@@ -34,6 +34,7 @@ from colift.benchmark.execution.provenance import origin, platform_of
 from colift.benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from colift.benchmark.results.baselines import (
     BASELINES,
+    HUMAN_HUMAN,
     play_baselines,
     shipped_baselines,
 )
@@ -144,7 +145,13 @@ def evaluate(
             finished = done.complete and baselines.keys() == set(BASELINES)
             content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
-                write_bundle(out, done, content.plain(), platform=platform_of(there))
+                write_bundle(
+                    out,
+                    done,
+                    content.plain(),
+                    human_human=baselines.get(HUMAN_HUMAN),
+                    platform=platform_of(there),
+                )
             if journal is not None and finished:
                 journal.remove()
     if content is not None:

@@ -13,7 +13,8 @@ from colift.base.errors import InputError
 from colift.base.registry import STANDARD_SUITE
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
-from colift.cli.completion import behaviours, channels, policies, robots, suites
+from colift.benchmark.rendering.layout import SUFFIXES, Layout, find_layout
+from colift.cli.completion import behaviours, channels, layouts, policies, robots, suites
 from colift.cli.remedies import naming, opened
 
 # The engine takes a second to import: not for a help text or a completion.
@@ -28,6 +29,13 @@ MOST: Final = 100_000
 
 LATENCY_OPTION: Final = typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
 PERIOD_OPTION: Final = typer.Option(metavar="S", help="Time between two decisions, in seconds.")
+
+LAYOUT_OPTION: Final = typer.Option(
+    "--for",
+    metavar="column|page|slide",
+    help="Size of figures: a column (3.5 inches), a page (7 inches) or a slide (16:9).",
+    autocompletion=layouts,
+)
 
 PolicyName = Annotated[
     str,
@@ -121,6 +129,7 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),
 ]
+LayoutName = Annotated[str, LAYOUT_OPTION]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
 
@@ -182,6 +191,32 @@ def chosen_suite(
     lifts = real_lifts(recordings, as_recorded=as_recorded, robot=robot)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
+
+
+def check_figure(path: Path | None) -> None:
+    """Refuse a file of a figure that cannot be written, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If its suffix is none of a figure, or as :func:`check_output`.
+    """
+    if path is not None and path.suffix not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise InputError(f"cannot write {path}: its suffix must be one of {known}")
+    check_output(path)
+
+
+def chosen_layout(text: str) -> Layout:
+    """Return the layout of the option ``--for``.
+
+    Raises
+    ------
+    InputError
+        If there is no such layout.
+    """
+    with naming("--for"):
+        return find_layout(text)
 
 
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:

@@ -1,47 +1,80 @@
 """``colift render``: a lift as a picture, a film or a page with a player."""
 
+import re
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
-from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import InputError
 from colift.base.registry import check_plays
+from colift.benchmark.bundle.files import is_bundle
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.execution.progress import progress_bar
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.results.lifts import lift_name, worst_first
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.level.task import LEVEL
 from colift.cli.beside import checked_look, draw_beside, others_in, played_lift
+from colift.cli.bundles import mention_others
 from colift.cli.completion import behaviours, people, policies
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     LATENCY_OPTION,
+    LAYOUT_OPTION,
     PERIOD_OPTION,
-    PolicyName,
     RobotName,
+    check_folder,
     check_output,
+    chosen_layout,
 )
 
 if TYPE_CHECKING:
     from colift.benchmark.rendering.film import Look
 
 HTML: Final = ".html"
-MODEL: Final = ".glb"
+
+OF_A_LIFT: Final = (
+    "behaviour",
+    "scenario",
+    "subject",
+    "seed",
+    "task",
+    "robot",
+    "latency",
+    "control_period",
+    "beside",
+)
+"""Options that a bundle decides."""
 
 
 def render_episode(
-    policy: PolicyName,
+    context: typer.Context,
+    policy: Annotated[
+        str,
+        typer.Argument(
+            metavar="POLICY|BUNDLE",
+            help="A policy, as for 'colift run'; or a result bundle, whose worst lift is drawn.",
+            autocompletion=policies,
+        ),
+    ],
     out: Annotated[
         Path,
         typer.Option(
             metavar="FILE",
-            help="Film (.gif, .webp, .mp4), picture (.png), page with a player (.html) or model in "
-            "3-D (.glb).",
+            help="Film (.gif, .webp, .mp4), picture (.png), figure for print (.svg, .pdf), page "
+            "with a player (.html) or model in 3-D (.glb); for several lifts a page, or a folder "
+            "for pictures.",
         ),
     ],
+    worst: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Draw the N worst lifts of a bundle; default: 1."),
+    ] = None,
     behaviour: Annotated[
         str | None,
         typer.Option(
@@ -86,16 +119,26 @@ def render_episode(
             autocompletion=policies,
         ),
     ] = None,
+    layout: Annotated[str | None, LAYOUT_OPTION] = None,
     robot: RobotName = None,
     latency: Annotated[float, LATENCY_OPTION] = LATENCY,
     control_period: Annotated[float, PERIOD_OPTION] = CONTROL_PERIOD,
 ) -> None:
     """Draw a lift, with the heights of both ends over time and all that its task asks for.
 
-    Exit code 1, and no file, if the policy fails.
+    Exit code 1, and no file, if the policy fails. The lifts of a bundle are drawn as they were
+    recorded, without the policy; what does not follow from the recorded actions is reported.
+
+    Example: colift render blend --behaviour pause --out lift.png
     """
-    _check(out)
+    size = None if layout is None else chosen_layout(layout)
     look = checked_look(out, camera, speed, plays, beside or ())
+    if is_bundle(Path(policy)):
+        _render_bundle(context, Path(policy), 1 if worst is None else worst, out, look, size)
+        return
+    if worst is not None:
+        raise InputError(f"--worst is for a result bundle, and {policy} is none")
+    _check(out)
     if seed < 0:
         raise InputError(f"--seed must not be negative, got {seed}")
     holder = robot or DEFAULT_ROBOT
@@ -109,58 +152,94 @@ def render_episode(
             draw_beside(out, [(spec, played), *others_in(played, beside)], seed, look)
         return
     with reported_interrupt(f"{out} is not drawn"):
-        episode = _drawn(spec, played, seed, out, look)
-    print(f"{out}: {episode.behaviour}/{episode.subject} seed {seed}, ", end="")
-    print(f"RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
+        episode = played_lift(spec, played, seed)
+        _write(out, episode, played, spec.name, look, size)
+    _report(out, episode)
+
+
+def _report(out: Path, episode: Episode) -> None:
+    """Print the file of a lift, and its score."""
+    name = lift_name(episode.behaviour, episode.subject, episode.trial, episode.seed)
+    print(f"{out}: {name}, RMSE {episode.scores['rmse_mm']:.1f} mm", end="")
     print(f"; ended early: {episode.failure}" if episode.failure else "")
-
-
-def _drawn(spec: AgentSpec, played: Scenario, seed: int, out: Path, look: "Look") -> Episode:
-    """Play a lift, draw it, and return it."""
-    episode = played_lift(spec, played, seed)
-    if out.suffix == HTML:
-        _write_page(out, episode, played, spec.name)
-    elif out.suffix == MODEL:
-        _write_model(out, episode, played, spec.name)
-    else:
-        _film(out, episode, played, spec.name, look)
-    return episode
 
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
 def _check(out: Path) -> None:
-    from colift.benchmark.rendering.gltf import check_model
-    from colift.benchmark.rendering.writing import SUFFIXES, check_film
+    from colift.leaderboard.replays.lift_file import check_lift_file
 
-    if out.suffix not in (*SUFFIXES, HTML, MODEL):
-        known = ", ".join((*SUFFIXES, HTML, MODEL))
-        raise InputError(f"cannot write {out}: its suffix must be one of {known}")
-    if out.suffix in SUFFIXES:
-        check_film(out)
-        return
+    check_lift_file(out)
     check_output(out)
-    if out.suffix == MODEL:
-        check_model(out)
 
 
-def _film(out: Path, episode: Episode, played: Scenario, name: str, look: "Look") -> None:
-    from colift.benchmark.rendering.film import FPS, film_episode, shown_frames
+def _write(
+    out: Path, episode: Episode, played: Scenario, name: str, look: "Look", layout: Layout | None
+) -> None:
+    from colift.leaderboard.replays.lift_file import pictures_in, write_lift
 
-    pictures = 1 if out.suffix == ".png" else len(shown_frames(episode, FPS / look.speed))
-    with progress_bar("drawing", pictures) as progress:
-        film_episode(out, episode, played, name, look=look, drawn=progress)
-
-
-def _write_model(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from colift.benchmark.rendering.gltf import write_model
-
-    write_model(out, episode, played, name)
+    with progress_bar("drawing", pictures_in(out, episode, look)) as progress:
+        write_lift(out, episode, played, name, look=look, layout=layout, drawn=progress)
 
 
-def _write_page(out: Path, episode: Episode, played: Scenario, name: str) -> None:
-    from colift.leaderboard.replays.html import replay_page
-    from colift.leaderboard.replays.replay import play_ghost, replay_content
+def _render_bundle(
+    context: typer.Context,
+    folder: Path,
+    worst: int,
+    out: Path,
+    look: "Look",
+    layout: Layout | None,
+) -> None:
+    """Draw the worst lifts of a bundle, and report what does not follow from their actions."""
+    from colift.benchmark.bundle.present import read_present
+    from colift.benchmark.verification.replaying import replayed_lifts
+    from colift.leaderboard.replays.lift_file import write_page
 
-    ghost = play_ghost(played, episode.seed)
-    page = replay_page([replay_content(episode, played, ghost, policy=name)])
-    out.write_text(page, encoding="utf-8")
+    for name in OF_A_LIFT:
+        source = context.get_parameter_source(name)
+        if source is not None and source.name == "COMMANDLINE":
+            option = name.replace("_", "-")
+            raise InputError(f"--{option} is for a policy: {folder} is a bundle with its own lifts")
+    if worst < 1:
+        raise InputError(f"--worst must be 1 or more, got {worst}")
+    bundle, run = read_present(folder)
+    mention_others(folder)
+    ordered = worst_first(each.scores["rmse_mm"] for each in run.episodes)
+    rows = [row for row in ordered if len(run.episodes[row].trace.human_end)][:worst]
+    if not rows:
+        failure = run.episodes[0].failure
+        raise InputError(f"no lift of {folder} has a frame to draw; the first ended: {failure}")
+    files = _files(out, [run.episodes[row] for row in rows])
+    with reported_interrupt(f"{out} is not drawn"):
+        lifts = [*replayed_lifts(bundle, run.suite, rows)]
+        for lift in lifts:
+            for finding in lift.findings[:1]:
+                print(f"note: it does not follow from the actions: {finding}", file=sys.stderr)
+        if out.suffix == HTML:
+            write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
+        for lift, file in zip(lifts, files, strict=True):
+            if out.suffix != HTML:
+                _write(file, lift.episode, lift.scenario, run.policy, look, layout)
+            _report(file, lift.episode)
+
+
+def _files(out: Path, episodes: Sequence[Episode]) -> list[Path]:
+    """Return the file of each lift: the page of all, the picture of one, or pictures in a folder.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written, or one picture would have to show several lifts.
+    """
+    if out.suffix and not out.is_dir():
+        _check(out)
+        if len(episodes) > 1 and out.suffix != HTML:
+            raise InputError(
+                f"{len(episodes)} lifts do not fit into {out}: name a folder, or a page ({HTML})"
+            )
+        return [out] * len(episodes)
+    check_folder("--out", out)
+    names = (
+        f"{place}-{each.behaviour}-{each.subject}-{each.trial}-seed-{each.seed}"
+        for place, each in enumerate(episodes, 1)
+    )
+    return [out / f"{re.sub('[^A-Za-z0-9_.]+', '-', name)}.png" for name in names]

@@ -9,12 +9,12 @@ from colift.base.errors import InputError
 from colift.benchmark.channels import channel_name
 from colift.benchmark.comparison.formatting import between, digits
 from colift.benchmark.comparison.stored import Stored, read_stored
+from colift.benchmark.comparison.tables import policy_cell
 from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.tables.printing import Cell, left, show, table
 from colift.cli.bundles import mention_others
 from colift.cli.document import print_json
 from colift.cli.options import AsJson
-from colift.cli.tables.comparison import policy_cell
 
 NONE: Final = "none"
 
@@ -37,7 +37,7 @@ def summarise_bundles(
         place = stored.policy.name, _column(stored)
         if place in found:
             raise InputError(
-                f"{folder} and {found[place].folder} are both of {place[0]} on {place[1]}"
+                f"{folder} and {found[place].origin} are both of {place[0]} on {place[1]}"
             )
         found[place] = stored
     if as_json:

@@ -88,6 +88,15 @@ def shown_error(drawn: Sequence[DrawnSeries], trace: Trace) -> NDArray[np.float6
     return np.asarray(trace.robot_end - meant)
 
 
+def is_scored(drawn: Sequence[DrawnSeries]) -> bool:
+    """Return whether the error of :func:`shown_error` is the one that the task scores.
+
+    Else it is the height difference of the ends, in a task that scores other distances.
+    """
+    goal = intended_far_end(drawn) or ball_and_target(drawn)
+    return goal is not None or not drawn
+
+
 def error_words(drawn: Sequence[DrawnSeries]) -> str:
     """Return a description of the error of :func:`shown_error`."""
     both, goal = ball_and_target(drawn), intended_far_end(drawn)

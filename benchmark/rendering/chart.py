@@ -18,19 +18,20 @@ from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.style import (
     AIM,
     COLOURS,
+    DASHES,
     FAINT,
     HUMAN,
     INK,
     LINE,
     PAPER,
     ROBOT,
+    ROBOT_DASHES,
 )
 from matplotlib.artist import Artist
-from matplotlib.figure import Figure
+from matplotlib.figure import FigureBase
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -38,8 +39,6 @@ if TYPE_CHECKING:
 
 LETTERS: Final = 8.5
 """Size of letters at scale 1 [points]."""
-
-DASHES: Final = (0, (4, 3))
 
 GAP: Final = 0.28
 """Opacity of the area of an error."""
@@ -53,6 +52,10 @@ BAR: Final = 0.022
 ROOM: Final = 0.09
 """Room above and below the curves for the words on a hurdle, as a share of their range."""
 
+STRIP: Final = 30
+ROW: Final = 15
+"""Room for a legend of one row, and for each further row [1/100 inch at scale 1]."""
+
 PLACES: Final = 0.6
 """Height of the axis of places, relative to that of heights."""
 
@@ -64,11 +67,22 @@ class Pen:
     scale: float
     """Size of letters and lines; 1 suits a picture 640 pixels wide."""
     opacity: float = 1.0
+    rows: int = 0
+    """Rows of each legend in print; 0 for one row, whose letters shrink where there is no room."""
+
+    @property
+    def strip(self) -> float:
+        """Room above an axis for its legend [1/100 inch]."""
+        return (STRIP + ROW * max(self.rows - 1, 0)) * self.scale
 
     @property
     def letters(self) -> float:
         """Size of letters [points]."""
         return LETTERS * self.scale
+
+
+SHRINKING: Final = ((1.0, 1.8), (1.0, 1.1), (0.9, 1.1), (0.8, 0.9), (0.7, 0.8))
+"""Sizes of the letters of a legend, and distances of its columns, as they are tried."""
 
 
 class Chart:
@@ -106,13 +120,13 @@ class Chart:
             found.append([(1000 * trace.added[self._rolling[0].name], INK)])
         return found
 
-    def draw(self, figure: Figure, pen: Pen, moments: Sequence[int] = ()) -> "list[Axes]":
+    def draw(self, figure: FigureBase, pen: Pen, moments: Sequence[int] = ()) -> "list[Axes]":
         """Draw all axes into a figure, whose size is that of the chart, and return them.
 
         There is a line at each of the moments, which are frames.
         """
-        width, height = 100 * figure.get_size_inches()
-        strip, ratios = 30 * pen.scale, [1.0, PLACES][: self.panels]
+        width, height = 100 * figure.bbox.size / figure.dpi
+        strip, ratios = pen.strip, [1.0, PLACES][: self.panels]
         axes = list(
             figure.subplots(
                 self.panels, 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": ratios}
@@ -148,7 +162,15 @@ class Chart:
         goal = intended_far_end(self._drawn)
         keys: list[Artist] = [
             self._line(axes, pen, human, "human's end", HUMAN, 2.2),
-            self._line(axes, pen, robot, f"{self._partner}'s end", ROBOT, 2.2),
+            self._line(
+                axes,
+                pen,
+                robot,
+                f"{self._partner}'s end",
+                ROBOT,
+                2.2,
+                ROBOT_DASHES if pen.rows else "-",
+            ),
         ]
         every = [human, robot, target]
         if self._rolling is None:
@@ -189,7 +211,7 @@ class Chart:
         label: str,
         colour: str,
         width: float,
-        style: str | tuple[int, tuple[int, int]] = "-",
+        style: str | tuple[int, tuple[float, ...]] = "-",
     ) -> Artist:
         """Draw a curve, and return its key: in full strength, whatever that of the curve."""
         thick = width * pen.scale
@@ -262,7 +284,7 @@ class Chart:
             color=colour,
             alpha=pen.opacity,
             zorder=6,
-            path_effects=[withStroke(linewidth=2.5 * pen.scale, foreground=PAPER)],
+            bbox={"facecolor": PAPER, "alpha": 0.75 * pen.opacity, "linewidth": 0, "pad": 0.5},
         )
 
     def _outermost(self, hurdle: DrawnHurdle) -> bool:
@@ -288,16 +310,17 @@ class Chart:
 
 
 def _legend(axes: "Axes", pen: Pen, keys: Sequence[Artist]) -> Legend:
-    """Draw a legend in one line above the axes; where there is no room, it is drawn smaller."""
+    """Draw a legend above the axes; in one row, it is drawn smaller where there is no room."""
     room = axes.get_window_extent().width
-    for size, spacing in ((1.0, 1.8), (1.0, 1.1), (0.9, 1.1), (0.8, 0.9), (0.7, 0.8)):
+    sizes = SHRINKING if pen.rows == 0 else SHRINKING[:2]
+    for size, spacing in sizes:
         legend = axes.legend(
             handles=list(keys),
             loc="lower left",
             bbox_to_anchor=(0, 1.0),
             borderaxespad=0.3,
             borderpad=0.2,
-            ncols=len(keys),
+            ncols=-(-len(keys) // max(pen.rows, 1)),
             frameon=False,
             fontsize=size * pen.letters,
             handlelength=1.8,

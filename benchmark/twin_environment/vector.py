@@ -92,7 +92,9 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
         if seed is not None or self._state is None:
             self._rng = np.random.default_rng(seed)
             seed = int(self._rng.integers(2**62))
-            self._env = TwinEnv(self._twin, drawn_pool(self._drawing, self._lifts, seed, self._plans))
+            self._env = TwinEnv(
+                self._twin, drawn_pool(self._drawing, self._lifts, seed, self._plans)
+            )
             self._step = jax.jit(partial(_step, self._env))
         self._state = self._env.begun(jnp.asarray(self._lanes()))
         self._over = np.zeros(self.num_envs, bool)

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import Final, Literal
 
 from colift.benchmark.comparison.formatting import digits, p_value
+from colift.benchmark.comparison.tables import BASELINE
 from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.tables.printing import counted, styled, table
 from colift.benchmark.validity.prediction import BetterThanPeople
 from colift.benchmark.validity.quantity import Quantity
 from colift.benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
 from colift.benchmark.validity.scores import Scores
-from colift.cli.tables.comparison import BASELINE
 from rich.table import Table
 
 HEADING: Final = 12

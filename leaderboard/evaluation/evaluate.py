@@ -106,7 +106,7 @@ def evaluate_entrant(
     public = run_suite(entrant.policy, season.suite, **playing)
     baselines = _baselines(season, executor, watch)
     content = results(public, baselines)
-    write_bundle(bundle, public, content.plain())
+    write_bundle(bundle, public, content.plain(), human_human=baselines[HUMAN_HUMAN])
     if all(episode.failure is not None for episode in public.episodes):
         watch.output(public.episodes[0].log)
         reasons = "; ".join(failure_lines(public.episodes)[:3])

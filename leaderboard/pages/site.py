@@ -9,7 +9,7 @@ from typing import Final
 
 from colift.base.errors import InputError
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.pages.links import Links
+from colift.leaderboard.pages.links import STATIC, Links
 from colift.leaderboard.pages.rendering import render_page, show
 from colift.leaderboard.pages.table import PAGES
 from colift.leaderboard.records.season import SeasonInfo
@@ -52,8 +52,9 @@ def write_site(board: Board, folder: Path) -> None:
 def _write(board: Board, folder: Path) -> None:
     (folder / "data").mkdir(parents=True)
     (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
-    with as_file(files("colift.leaderboard") / "static") as static:
-        shutil.copytree(static, folder / "static")
+    for package, name in STATIC:
+        with as_file(files(package) / name) as static:
+            shutil.copytree(static, folder / "static", dirs_exist_ok=True)
     seasons = ordered_seasons(board)
     links, visit = Links(current=seasons[0].name), Visit(board=board)
     for info in seasons:

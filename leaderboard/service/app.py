@@ -10,6 +10,7 @@ from typing import Final
 import anyio.to_thread
 from colift.leaderboard.client import API
 from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.pages.links import STATIC
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import Queue, Quota
 from colift.leaderboard.service import page_routes as pages
@@ -115,7 +116,7 @@ def create_app(
     app.add_middleware(Guard, rate=rates.address)
     app.include_router(api_router())
     app.include_router(pages.router)
-    app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
+    app.mount("/static", StaticFiles(packages=[*STATIC]))
     if docs is not None and docs.folder is not None:
         app.mount(PLACE, Pages(directory=docs.folder, html=True))
     app.get("/healthz", responses={429: {"model": Problem}})(health)

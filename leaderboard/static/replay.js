@@ -52,15 +52,19 @@
       for (const each of behaviours) select.append(element("option", { value: each }, words(each)));
       this.whichButtons = element("div", { class: "replay-which", role: "group", "aria-label": "Which lift" });
       this.behaviour = select;
-      select.addEventListener("change", () => this.pick(select.value, this.now.which));
+      select.addEventListener("change", () => this.pick(this.alike(select.value)));
       this.root.append(
         element("div", { class: "replay-picker" }, element("label", {}, "The human: ", select), this.whichButtons)
       );
     }
 
-    pick(behaviour, which) {
-      const of = this.replays.map((r, i) => [r, i]).filter(([r]) => r.behaviour === behaviour);
-      const [, index] = of.find(([r]) => r.which === which) || of[0];
+    // The replay of a behaviour that was chosen for the same reason as the present one, or its first.
+    alike(behaviour) {
+      const of = this.replays.filter((r) => r.behaviour === behaviour);
+      return this.replays.indexOf(of.find((r) => r.which === this.now.which) || of[0]);
+    }
+
+    pick(index) {
       this.choose(index);
       try {
         window.history.replaceState(null, "", "#" + this.name(this.replays[index]));
@@ -75,9 +79,10 @@
       const of = this.replays.filter((r) => r.behaviour === this.now.behaviour);
       this.whichButtons.replaceChildren(
         ...of.map((r) => {
-          const button = element("button", { type: "button", "aria-pressed": r.which === this.now.which });
+          const index = this.replays.indexOf(r);
+          const button = element("button", { type: "button", "aria-pressed": index === this.index });
           button.append(colift.WHICH[r.which] || r.subject, " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
-          button.addEventListener("click", () => this.pick(r.behaviour, r.which));
+          button.addEventListener("click", () => this.pick(index));
           return button;
         })
       );
@@ -106,6 +111,7 @@
     }
 
     choose(index) {
+      this.index = index;
       const now = (this.now = decoded(this.replays[index]));
       this.frames = now.human.length;
       this.duration = Math.max(now.horizon, 1) * now.frame_s;

@@ -6,6 +6,8 @@ from typing import Any, Final
 from weakref import WeakKeyDictionary
 
 from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.rendering.axis import Axis, make_axis
+from colift.benchmark.results.parts import Part, parts_of
 from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
@@ -18,8 +20,7 @@ from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
-from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.lifts import Part, known, parts_of
+from colift.leaderboard.views.lifts import known
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
     Content,
