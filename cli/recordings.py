@@ -66,7 +66,7 @@ def make_recordings(
         typer.Option(metavar="HZ", help="Frames per second, counted instead of the file's times."),
     ] = None,
     time_unit: Annotated[
-        str | None, typer.Option(metavar="UNIT", help="Unit of times: s, ms, us or ns.")
+        str | None, typer.Option(metavar="UNIT", help="Unit of times: s, ms, us, ns or min.")
     ] = None,
     between: Annotated[
         str | None,
@@ -224,7 +224,7 @@ def _second(text: str | None) -> float | None:
     if text is None:
         return None
     if text.lower() not in SECONDS:
-        raise InputError(f"--time-unit must be s, ms, us or ns, got {text!r:.40}")
+        raise InputError(f"--time-unit must be s, ms, us, ns or min, got {text!r:.40}")
     return SECONDS[text.lower()]
 
 

@@ -31,6 +31,9 @@ BODY: Final = 12
 TALL: Final = 1.1
 """[m]"""
 
+CLEARLY: Final = 2.0
+"""A hand that rises by this factor more along another axis makes an axis doubtful."""
+
 MOST_NAMES: Final = 12
 """Most names in a message."""
 
@@ -163,9 +166,10 @@ def _indices(motion: Motion, chosen: str, option: str, where: str) -> list[int]:
     for part in chosen.split("+"):
         index = _index(motion.names, part.strip())
         if index is None:
+            meant = did_you_mean(part, map(_bare, motion.names))
             raise InputError(
-                f"{where}: {option} {part!r:.60} is not there: "
-                f"{did_you_mean(part, motion.names)}the file has {_listed(motion.names)}"
+                f"{where}: {option} {part!r:.60} is not there: {meant}the file has "
+                f"{_listed(motion.names)}"
             )
         found.append(index)
     return found
@@ -203,10 +207,10 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
     rises = {i: rise(motion, heights) for i, heights in series.items()}
     moving = {i: series[i] for i in candidates if rises[i] > 0.0}
     if not moving:
-        what = "of its hands" if hands else "of its points"
         raise InputError(
-            f"{where}: none {what} rises along {up}: name the hand's marker, --marker NAME (it has "
-            f"{_listed(names)}), or the axis that points up, --up X, Y, Z or -Y"
+            f"{where}: none of its {'hands' if hands else 'points'} rises along {up}"
+            f"{_other_axis(motion, candidates, up, rise)}: name the hand's marker, --marker NAME "
+            f"(it has {_listed(names)}), or the axis that points up, --up X, Y, Z or -Y"
         )
     best = min(moving, key=lambda i: (int(np.isnan(moving[i]).sum()), i))
     differing = [i for i, heights in moving.items() if not _alike(heights, moving[best])]
@@ -223,6 +227,39 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
             best
         ], f"the only one of {len(names)} {'of a hand ' if hands else ''}that rises"
     return names[best], f"the most complete of {len(moving)} that rise alike"
+
+
+def _other_axis(motion: Motion, candidates: Sequence[int], up: str, rise: Rises) -> str:
+    """Return along which other axis one of some points rises the most, in words; empty if none."""
+    risen = {
+        axis: max(rise(motion, _heights(motion, [i], axis)[0]) for i in candidates)
+        for axis in ("Y", "Z", "X", "-Y", "-Z", "-X")
+        if axis != up
+    }
+    best = max(risen, key=lambda axis: risen[axis])
+    return f", but {risen[best]:.2f} m along {best} (--up {best}?)" if risen[best] > 0.0 else ""
+
+
+def check_up(track: Track, rise: Rises, where: str) -> None:
+    """Refuse a common axis for one that nobody stated, if the hand rises far more along another.
+
+    Raises
+    ------
+    InputError
+        With both axes.
+    """
+    motion, up = track.motion, track.up
+    if motion.up_source or track.hand not in motion.names:
+        return
+    other = "Y" if up == "Z" else "Z"
+    point = motion.names.index(track.hand)
+    here, there = rise(motion, track.heights), rise(motion, _heights(motion, [point], other)[0])
+    if there > CLEARLY * here > 0.0:
+        raise InputError(
+            f"{where}: which axis points up? {track.hand} rises {here:.2f} m along {up}, which is "
+            f"usual for {motion.kind}, and {there:.2f} m along {other}: say --up {other}, or --up "
+            f"{up}"
+        )
 
 
 def _alike(one: Series, other: Series) -> bool:

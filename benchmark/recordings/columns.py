@@ -12,6 +12,7 @@ SECONDS: Final = {
     **dict.fromkeys(("ms", "msec", "msecs", "millisecond", "milliseconds"), 1e-3),
     **dict.fromkeys(("us", "µs", "usec", "microsecond", "microseconds"), 1e-6),
     **dict.fromkeys(("ns", "nsec", "nanosecond", "nanoseconds"), 1e-9),
+    **dict.fromkeys(("min", "minute", "minutes"), 60.0),
 }
 """Names of units of time, in lower case [s]."""
 
@@ -19,6 +20,7 @@ TIMES: Final = frozenset(
     ("time", "times", "t", "timestamp", "timestamps", "time stamp", "stamp", "seconds", "secs")
     + ("sec", "elapsed", "elapsed time", "relative time", "rostime", "datetime", "date time")
     + ("zeit", "temps", "tiempo", "tempo", "header stamp", "capture time", "milliseconds")
+    + ("time of day", "uhrzeit", "utc", "utc time", "local time")
     + ("nanoseconds", "microseconds", "unix time", "epoch", "host time", "device time")
 )
 """Names of a column of times, in lower case, with blanks for other marks between words."""

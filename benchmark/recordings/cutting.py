@@ -29,6 +29,9 @@ m/s, and a person who stands still sways at 0.01 m/s."""
 SINKS: Final = 0.2
 """Share of a rise by which the hand may sink in a pause of it."""
 
+NOISE: Final = 0.2
+"""Share of the least rise up to which what rises is noise."""
+
 EDGE: Final = 0.02
 """Share of a rise at its start and end that counts as rest."""
 
@@ -135,7 +138,8 @@ def _rises(grid: Series, heights: Series, cut: Cut) -> Iterator[Span]:
     """Yield the rises of smoothed heights."""
     speed = np.gradient(heights, STEP) if len(heights) > 1 else np.zeros(len(heights))
     edges = np.flatnonzero(np.diff(speed > SPEED, prepend=False, append=False)).tolist()
-    runs = [*zip(edges[::2], (stop - 1 for stop in edges[1::2]), strict=True)]
+    ends = zip(edges[::2], (stop - 1 for stop in edges[1::2]), strict=True)
+    runs = [(a, b) for a, b in ends if heights[b] - heights[a] > NOISE * cut.least]
     for start, stop in _joined(runs, heights, cut.pause):
         low = start + int(heights[start : stop + 1].argmin())
         high = low + int(heights[low : stop + 1].argmax())

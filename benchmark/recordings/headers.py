@@ -34,6 +34,9 @@ RATE: Final = re.compile(
 """A rate in a comment or a line of settings."""
 
 
+MOMENT: Final = re.compile(r"\d{4}-\d\d-\d\d[T ]\d|(\d+:)?\d{1,2}:\d{1,2}([.,]\d+)?$")
+"""A date with a time in ISO 8601, or a time of day: hours, if any, minutes and seconds."""
+
 VALUE: Final = re.compile(r"[+-]?[.,]?\d")
 """The start of a number, a time of day or a date."""
 
@@ -85,7 +88,7 @@ def table_of(text: str, where: str) -> Table:
         titles = _guessed(data, where)
         units = ("",) * len(titles)
     check_widths(data, len(titles), where)
-    settings = [rows[i] for i in sorted(notes)] + [" ".join(each.cells) for each in lines[:top]]
+    settings = [rows[i] for i in sorted(notes)] + [" ".join(each.cells) for each in lines[:first]]
     return Table(
         titles=titles,
         units=units,
@@ -173,5 +176,6 @@ def column_of_times(table: Table) -> int | None:
     The time of measurement, in a message's header, goes before that of its arrival.
     """
     found = [i for i, title in enumerate(table.titles) if time_unit(title) is not None]
+    found += [i for i in range(len(table.titles)) if MOMENT.match(table.lines[0].at(i))]
     stamps = [i for i in found if "header" in plain_name(table.titles[i]).split()]
     return next(iter(stamps or found), None)

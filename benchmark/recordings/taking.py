@@ -9,7 +9,7 @@ import numpy as np
 from colift.agents.humans.artefacts import SHORTEST, fault
 from colift.base.errors import InputError
 from colift.benchmark.recordings.checking import check_clock, check_unit, with_gaps
-from colift.benchmark.recordings.choosing import Track, choose, up_of
+from colift.benchmark.recordings.choosing import Track, check_up, choose, up_of
 from colift.benchmark.recordings.cutting import (
     Cut,
     Lift,
@@ -135,6 +135,8 @@ def _take(path: Path, motion: Motion, several: bool, wishes: Wishes) -> Take:
         return rise_in(moved.times, heights, wishes.cut)
 
     track = choose(motion, wishes.hand, wishes.far, up, rise, where)
+    if wishes.up is None:
+        check_up(track, rise, where)
     found = lifts_in(motion.times, track.heights, wishes.cut)
     problems = [] if found else [_nothing(track, wishes.cut, where)]
     made: list[Taken] = []

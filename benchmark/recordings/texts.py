@@ -184,24 +184,26 @@ def numbers(
     try:
         values = np.array(texts, dtype=np.str_).astype(np.float64)
     except ValueError:
-        values = np.array([_number(text, i, lines, names, where) for i, text in enumerate(texts)])
+        cells = [line.at(column) for line in lines for column in columns]
+        values = np.array(
+            [
+                _number(text, cell, lines[i // len(names)].number, names[i % len(names)], where)
+                for i, (text, cell) in enumerate(zip(texts, cells, strict=True))
+            ]
+        )
     values[np.isinf(values)] = np.nan
     return values.reshape(len(lines), len(columns))
 
 
-def _number(
-    text: str, index: int, lines: Sequence[Line], names: Sequence[str], where: str
-) -> float:
+def _number(text: str, written: str, line: int, name: str, where: str) -> float:
     try:
         return float(text)
     except ValueError:
-        row, column = divmod(index, len(names))
         hint = ""
-        if THOUSANDS.fullmatch(text):
+        if THOUSANDS.fullmatch(written):
             hint = ": write it without separators of thousands, and with a decimal point, as 1234.5"
         raise InputError(
-            f"{where}, line {lines[row].number}: {names[column]} is {text!r:.40}, must be a "
-            f"number{hint}"
+            f"{where}, line {line}: {name} is {written!r:.40}, must be a number{hint}"
         ) from None
 
 

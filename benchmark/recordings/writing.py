@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -60,7 +61,7 @@ def _check(data: bytes) -> None:
         try:
             load_recordings(path)
         except InputError as error:
-            reason = str(error).replace(f"{path}, ", "").replace(f"{path}: ", "")
+            reason = re.sub(r"^(, line \d+)?: ", "", str(error).removeprefix(str(path)))
             raise InputError(f"the lifts cannot be used together: {reason}") from None
 
 
@@ -84,14 +85,21 @@ def _notes(takes: Sequence[Take], notes: Notes) -> list[str]:
 def joined_notes(found: Iterable[Notes], licence: str | None, cite: str | None) -> Notes:
     """Return the notes of several files, each once, with those that the user gave first."""
     several = [*found]
-    licences = dict.fromkeys([licence or "", *(notes.licence for notes in several)])
-    cites = dict.fromkeys([cite or "", *(notes.cite for notes in several)])
-    return Notes("; ".join(filter(None, licences)), "; ".join(filter(None, cites)))
+    licences = [licence or "", *(notes.licence for notes in several)]
+    cites = [cite or "", *(notes.cite for notes in several)]
+    return Notes(_joined(licences), _joined(cites))
+
+
+def _joined(texts: Sequence[str]) -> str:
+    """Return texts, each once and on one line."""
+    return "; ".join(filter(None, dict.fromkeys(" ".join(text.split()) for text in texts)))
 
 
 def _named(lifts: Sequence[tuple[Take, Taken]]) -> list[tuple[str, Taken]]:
-    """Return the lifts with names of their own: with their folders', where files have one name."""
+    """Return the lifts with names of their own, with the people's or the folders' if needed."""
     names = [lift.trial for _, lift in lifts]
+    if len(set(names)) < len(names):
+        names = [f"{lift.person} {lift.trial}".strip() for _, lift in lifts]
     if len(set(names)) < len(names):
         names = [f"{take.file.parent.name}/{lift.trial}".lstrip("/") for take, lift in lifts]
     if len(set(names)) < len(names):
