@@ -11,7 +11,9 @@ from colift.base.errors import InputError
 from colift.benchmark.recordings.columns import SECONDS
 from colift.benchmark.recordings.cutting import PHASES, Cut
 from colift.benchmark.recordings.motion import LENGTHS, length_of
-from colift.benchmark.recordings.taking import Take, Wishes, takes_of
+from colift.benchmark.recordings.takes import Take
+from colift.benchmark.recordings.taking import takes_of
+from colift.benchmark.recordings.wishes import Wishes
 from colift.benchmark.recordings.writing import joined_notes, lifts_csv
 from colift.benchmark.tables.printing import counted, show
 from colift.cli.document import print_json

@@ -8,14 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from colift.base.text import read_bytes
-
 MARK: Final = "#"
 LICENCE: Final = "licence"
 CITE: Final = "cite"
 
-LARGEST: Final = 512 * 1024 * 1024
-"""Largest file [bytes]."""
+LARGEST: Final = 1 << 16
+"""Bytes that are read for notes."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +31,8 @@ class Notes:
 
 def notes_of(path: Path) -> Notes:
     """Return the notes of a file; none of one that is no text."""
-    text = read_bytes(path, LARGEST).removeprefix(b"\xef\xbb\xbf").decode(errors="replace")
+    with path.open("rb") as file:
+        text = file.read(LARGEST).removeprefix(b"\xef\xbb\xbf").decode(errors="replace")
     found: dict[str, str] = {}
     for line in text.splitlines():
         if not line.startswith(MARK):

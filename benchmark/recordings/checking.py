@@ -6,8 +6,7 @@ from typing import Final
 import numpy as np
 from colift.agents.humans.artefacts import FARTHEST, FEWEST, HOLE, LARGEST, LOWEST_RATE
 from colift.base.errors import InputError
-from colift.benchmark.recordings.choosing import zeros
-from colift.benchmark.recordings.motion import Motion, Series
+from colift.benchmark.recordings.motion import Motion, Series, zeros
 from colift.benchmark.recordings.unseen import without_numbers
 
 LONGEST_HOLE: Final = 60.0

@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 from colift.base.errors import InputError
 from colift.base.near_names import did_you_mean
-from colift.benchmark.recordings.motion import Motion, Series
+from colift.benchmark.recordings.motion import Motion, Series, zeros
 from colift.benchmark.recordings.unseen import without_numbers
 
 HAND: Final = re.compile(
@@ -20,19 +20,6 @@ HAND: Final = re.compile(
 ALIKE: Final = 0.1
 """Points move alike if their heights differ from a constant by at most this share of their rise
 (largest deviation): the two ends of a table that is lifted level, or markers of one hand."""
-
-UPRIGHT: Final = 1.5
-"""A person's points spread by this factor further along the vertical than along another axis, if
-they are measured from head to foot."""
-
-BODY: Final = 12
-"""Fewest points that are taken for a whole person, with the spread :data:`TALL`."""
-
-TALL: Final = 1.1
-"""[m]"""
-
-CLEARLY: Final = 2.0
-"""A hand that rises by this factor more along another axis makes an axis doubtful."""
 
 MOST_NAMES: Final = 12
 """Most names in a message."""
@@ -59,44 +46,6 @@ class Track:
 
 Rises = Callable[[Motion, Series], float]
 """How far the hand rises in the lifts of a series of heights [m]; 0 without any."""
-
-
-def up_of(motion: Motion, told: str | None, where: str) -> str:
-    """Return the axis that points up: as told, else as the file or its format has it.
-
-    Raises
-    ------
-    InputError
-        If neither tells it, and a person would lie along this axis.
-    """
-    if told is not None:
-        return told
-    if not motion.up_source and len(motion.names) >= BODY:
-        other = "Y" if motion.up == "Z" else "Z"
-        here, there = (_spread(motion, axis) for axis in (motion.up, other))
-        if there > max(TALL, UPRIGHT * here):
-            raise InputError(
-                f"{where}: which axis points up? {motion.up} is usual for {motion.kind}, but the "
-                f"points spread {there:.2f} m along {other} and {here:.2f} m along {motion.up}: "
-                f"say --up {other}, or --up {motion.up}"
-            )
-    return motion.up
-
-
-def _spread(motion: Motion, axis: str) -> float:
-    """Return how far the points lie apart along an axis [m], by their middle places."""
-    unseen = zeros(motion)
-    places = [
-        np.median(heights[seen])
-        for i in range(len(motion.names))
-        if (seen := np.isfinite(heights := motion.heights(i, axis)) & ~unseen[:, i]).any()
-    ]
-    return float(np.ptp(places)) if places else 0.0
-
-
-def zeros(motion: Motion) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Return where all coordinates of a point are 0: it was not seen. Shape (n, points)."""
-    return np.asarray((motion.positions == 0.0).all(axis=2))
 
 
 def choose(
@@ -128,10 +77,10 @@ def choose(
     """
     chosen, why = (hand, "") if hand is not None else _open_choice(motion, up, rise, where)
     points = _indices(motion, chosen, "--marker", where)
-    heights, numbers = _heights(motion, points, up)
+    heights, numbers = heights_of(motion, points, up)
     other = None
     if far is not None:
-        other, more = _heights(motion, _indices(motion, far, "--far", where), up)
+        other, more = heights_of(motion, _indices(motion, far, "--far", where), up)
         numbers = tuple(dict.fromkeys((*numbers, *more)))
     return Track(
         motion=motion,
@@ -144,7 +93,7 @@ def choose(
     )
 
 
-def _heights(motion: Motion, points: Sequence[int], up: str) -> tuple[Series, tuple[float, ...]]:
+def heights_of(motion: Motion, points: Sequence[int], up: str) -> tuple[Series, tuple[float, ...]]:
     """Return the mean height of some points, NaN where one was not seen, and numbers for that."""
     unseen = zeros(motion)
     sign = -1.0 if up.startswith("-") else 1.0
@@ -203,7 +152,7 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
         return motion.hand, ""
     hands = [i for i, name in enumerate(names) if HAND.search(_bare(name))]
     candidates = hands or [*range(len(names))]
-    series = {i: _heights(motion, [i], up)[0] for i in candidates}
+    series = {i: heights_of(motion, [i], up)[0] for i in candidates}
     rises = {i: rise(motion, heights) for i, heights in series.items()}
     moving = {i: series[i] for i in candidates if rises[i] > 0.0}
     if not moving:
@@ -232,34 +181,12 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
 def _other_axis(motion: Motion, candidates: Sequence[int], up: str, rise: Rises) -> str:
     """Return along which other axis one of some points rises the most, in words; empty if none."""
     risen = {
-        axis: max(rise(motion, _heights(motion, [i], axis)[0]) for i in candidates)
+        axis: max(rise(motion, heights_of(motion, [i], axis)[0]) for i in candidates)
         for axis in ("Y", "Z", "X", "-Y", "-Z", "-X")
         if axis != up
     }
     best = max(risen, key=lambda axis: risen[axis])
     return f", but {risen[best]:.2f} m along {best} (--up {best}?)" if risen[best] > 0.0 else ""
-
-
-def check_up(track: Track, rise: Rises, where: str) -> None:
-    """Refuse a common axis for one that nobody stated, if the hand rises far more along another.
-
-    Raises
-    ------
-    InputError
-        With both axes.
-    """
-    motion, up = track.motion, track.up
-    if motion.up_source or track.hand not in motion.names:
-        return
-    other = "Y" if up == "Z" else "Z"
-    point = motion.names.index(track.hand)
-    here, there = rise(motion, track.heights), rise(motion, _heights(motion, [point], other)[0])
-    if there > CLEARLY * here > 0.0:
-        raise InputError(
-            f"{where}: which axis points up? {track.hand} rises {here:.2f} m along {up}, which is "
-            f"usual for {motion.kind}, and {there:.2f} m along {other}: say --up {other}, or --up "
-            f"{up}"
-        )
 
 
 def _alike(one: Series, other: Series) -> bool:

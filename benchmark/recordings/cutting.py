@@ -8,7 +8,7 @@ first within this share of its highest one. What sinks is found in the same way.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -68,8 +68,15 @@ class Lift:
     """A lift in a recording: its phases, and the part with the rests around them."""
 
     phases: tuple[Span, ...]
-    """Rise, hold and lowering, as far as they are kept."""
+    """Rise, hold and lowering, as far as they are kept; none if nothing was cut."""
     whole: Span
+
+    @property
+    def span(self) -> Span:
+        """The lift without the rests around it."""
+        if not self.phases:
+            return self.whole
+        return Span(self.phases[0].start, self.phases[-1].stop)
 
     def phase_at(self, time: float) -> str:
         """Return the phase at a time [s]; empty at rest."""
@@ -91,6 +98,10 @@ def lifts_in(times: Series, heights: Series, cut: Cut) -> list[Lift]:
     cut
         The settings.
     """
+    if not cut.phases:
+        seen = times[~np.isnan(heights)]
+        still = not seen.size or np.ptp(heights[~np.isnan(heights)]) < cut.least
+        return [] if still else [Lift(phases=(), whole=Span(float(seen[0]), float(seen[-1])))]
     found: list[Lift] = []
     for part in _parts(times, heights):
         t, z = times[part], heights[part]
@@ -99,10 +110,7 @@ def lifts_in(times: Series, heights: Series, cut: Cut) -> list[Lift]:
         smooth = _smoothed(np.interp(grid, t[seen], z[seen]))
         rises = [*_rises(grid, smooth, cut)]
         falls = [*_rises(grid, -smooth, cut)]
-        if cut.phases:
-            found += _lifts(rises, falls, Span(float(t[0]), float(t[-1])), cut)
-        elif rises:
-            found.append(Lift(phases=(rises[0],), whole=Span(float(t[0]), float(t[-1]))))
+        found += _lifts(rises, falls, Span(float(t[0]), float(t[-1])), cut)
     return found
 
 
@@ -110,7 +118,8 @@ def rise_in(times: Series, heights: Series, cut: Cut) -> float:
     """Return the height of the highest rise of a recording [m]; 0 if there is none."""
     seen = ~np.isnan(heights)
     t, z = times[seen], heights[seen]
-    spans = [lift.phases[0] for lift in lifts_in(times, heights, cut)]
+    lifts = lifts_in(times, heights, replace(cut, phases=1))
+    spans = [lift.phases[0] for lift in lifts]
     return max((float(np.interp(b, t, z) - np.interp(a, t, z)) for a, b in spans), default=0.0)
 
 
@@ -188,7 +197,7 @@ def _lifts(rises: Sequence[Span], falls: Sequence[Span], part: Span, cut: Cut) -
 
 def broken(times: Series, heights: Series, lift: Lift) -> bool:
     """Return whether a lift begins or ends beside a long gap: it was not seen whole."""
-    first, last = lift.phases[0].start, lift.phases[-1].stop
+    first, last = lift.span
     for gap in gaps_in(heights):
         before, after = times[max(gap.start - 1, 0)], times[min(gap.stop, len(times) - 1)]
         if gap.seconds(times) > BLIND and (
@@ -203,6 +212,8 @@ def cut_off(times: Series, heights: Series, lift: Lift) -> bool:
 
     Then it is faster there than half its mean speed.
     """
+    if not lift.phases:
+        return False
     start, stop = lift.phases[0]
     t, z = times[~np.isnan(heights)], heights[~np.isnan(heights)]
     if start - t[0] > SMOOTH:

@@ -113,6 +113,11 @@ class Motion:
         return -values if up.startswith("-") else values
 
 
+def zeros(motion: Motion) -> NDArray[np.bool_]:
+    """Return where all coordinates of a point are 0: it was not seen. Shape (n, points)."""
+    return np.asarray((motion.positions == 0.0).all(axis=2))
+
+
 def length_of(text: str) -> float | None:
     """Return the metres in a unit of length, or in a number of metres; None if it is neither."""
     name = LENGTH_NAMES.get(text.strip().lower())

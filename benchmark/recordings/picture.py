@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
-from colift.benchmark.recordings.taking import Take
+from colift.benchmark.recordings.takes import Take
 from colift.benchmark.recordings.unseen import gaps_in
 from colift.benchmark.rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, style_axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg

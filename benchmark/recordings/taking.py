@@ -2,112 +2,21 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from colift.agents.humans.artefacts import SHORTEST, fault
 from colift.base.errors import InputError
 from colift.benchmark.recordings.checking import check_clock, check_unit, with_gaps
-from colift.benchmark.recordings.choosing import Track, check_up, choose, up_of
-from colift.benchmark.recordings.cutting import (
-    Cut,
-    Lift,
-    broken,
-    cut_off,
-    lifts_in,
-    rise_in,
-)
+from colift.benchmark.recordings.choosing import Track, choose
+from colift.benchmark.recordings.cutting import Cut, Lift, broken, cut_off, lifts_in, rise_in
 from colift.benchmark.recordings.kinds import read_motions
 from colift.benchmark.recordings.motion import Motion, Series
+from colift.benchmark.recordings.takes import Take, Taken
 from colift.benchmark.recordings.unseen import TOLERANCE, filled, gaps_in
-
-
-@dataclass(frozen=True, kw_only=True)
-class Wishes:
-    """What the user chose."""
-
-    hand: str | None = None
-    """The point of the hand; None leaves it to the file."""
-    far: str | None = None
-    """The point of the other end."""
-    up: str | None = None
-    """The axis that points up, such as ``Y`` or ``-Y``."""
-    unit: str | None = None
-    """Name of the unit of lengths, or metres per unit."""
-    metre: float | None = None
-    """Metres in it."""
-    rate: float | None = None
-    """Samples per second, counted instead of the file's times."""
-    second: float | None = None
-    """Unit of times [s]."""
-    between: tuple[float, float] | None = None
-    """The part that is read, in seconds from the first sample."""
-    fill: float = 0.0
-    """Longest gap that is filled [s]."""
-    person: str | None = None
-    """Regular expression of the part of the file's name that names the person."""
-    leave_out: bool = False
-    """Whether what cannot be used is left out, instead of refused."""
-    cut: Cut = field(default_factory=Cut)
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Taken:
-    """A lift, ready to be written."""
-
-    trial: str
-    person: str
-    times: Series
-    """[s] from the first sample of the recording, shape (n,)."""
-    heights: Series
-    """[m]"""
-    phases: tuple[str, ...]
-    """The phase at each time; empty at rest."""
-    far: Series | None
-    """Height of the other end [m]."""
-
-    @property
-    def rise(self) -> float:
-        """Height of the rise [m]; of a recording that was not cut, the range of its heights."""
-        rising = self.heights[np.array(self.phases) == "rise"]
-        return float(rising[-1] - rising[0]) if rising.size else float(np.ptp(self.heights))
-
-    @property
-    def duration(self) -> float:
-        """Duration of the rise [s]; of a recording that was not cut, all of it."""
-        rising = self.times[np.array(self.phases) == "rise"]
-        return float(np.ptp(rising if rising.size else self.times))
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Take:
-    """A take, and the lifts in it."""
-
-    file: Path
-    track: Track
-    lifts: tuple[Taken, ...]
-    left_out: tuple[str, ...]
-    """The reason for each lift, or the whole take, that was left out."""
-    filled: int
-    """Samples that were filled, in all lifts."""
-
-    @property
-    def motion(self) -> Motion:
-        """The points from which the hand was chosen."""
-        return self.track.motion
-
-    @property
-    def rate(self) -> float:
-        """Samples per second."""
-        return 1.0 / float(np.median(np.diff(self.motion.times)))
-
-    @property
-    def gaps(self) -> tuple[float, ...]:
-        """Duration of each gap between the first and the last seen sample [s]."""
-        times, heights = self.motion.times, self.track.heights
-        inner = (g for g in gaps_in(heights) if g.start > 0 and g.stop < len(heights))
-        return tuple(gap.seconds(times) for gap in inner)
+from colift.benchmark.recordings.upright import check_up, up_of
+from colift.benchmark.recordings.wishes import Wishes
 
 
 def takes_of(path: Path, wishes: Wishes) -> list[Take]:
@@ -125,7 +34,7 @@ def takes_of(path: Path, wishes: Wishes) -> list[Take]:
 
 def _take(path: Path, motion: Motion, several: bool, wishes: Wishes) -> Take:
     where = f"{path}, trial {motion.take!r:.60}" if several else str(path)
-    motion = _as_wished(motion, wishes)
+    motion = wishes.applied(motion)
     check_clock(motion, where)
     motion = with_gaps(replace(motion, times=motion.times - motion.times[0]))
     up = up_of(motion, wishes.up, where)
@@ -155,18 +64,6 @@ def _take(path: Path, motion: Motion, several: bool, wishes: Wishes) -> Take:
     if problems and not wishes.leave_out:
         raise InputError("\n".join(problems))
     return Take(file=path, track=track, lifts=tuple(made), left_out=tuple(problems), filled=count)
-
-
-def _as_wished(motion: Motion, wishes: Wishes) -> Motion:
-    if wishes.second is not None:
-        motion = motion.in_time_unit(wishes.second)
-    if wishes.rate is not None:
-        motion = motion.at_rate(wishes.rate)
-    if wishes.metre is not None:
-        motion = motion.in_unit(wishes.metre, str(wishes.unit))
-    if wishes.between is not None:
-        motion = motion.between(*wishes.between)
-    return motion
 
 
 def _person(path: Path, pattern: str) -> str:
@@ -206,7 +103,8 @@ def _taken(
     """Return a lift and the number of its filled samples."""
     motion = track.motion
     start, stop = lift.whole
-    at = f"{where}: the lift from {lift.phases[0].start:.2f} s to {lift.phases[-1].stop:.2f} s"
+    first, last = lift.span
+    at = f"{where}: the lift from {first:.2f} s to {last:.2f} s"
     if cut_off(motion.times, track.heights, lift):
         raise InputError(
             f"{at} had begun before the first sample: leave it out with --leave-out, or read from "
@@ -242,9 +140,7 @@ def _taken(
             person=person,
             times=times,
             heights=heights,
-            phases=tuple(
-                lift.phase_at(time) if wishes.cut.phases else "" for time in times.tolist()
-            ),
+            phases=tuple(map(lift.phase_at, times.tolist())),
             far=far,
         ),
         count,

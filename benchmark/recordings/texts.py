@@ -13,8 +13,8 @@ from colift.base.errors import InputError
 from colift.base.text import read_bytes
 from numpy.typing import NDArray
 
-LARGEST: Final = 512 * 1024 * 1024
-"""Largest file [bytes]: an hour of 60 markers at 100 Hz as text."""
+LARGEST: Final = 256 * 1024 * 1024
+"""Largest file [bytes]: half an hour of 60 markers at 100 Hz as text."""
 
 ENCODINGS: Final = (
     (codecs.BOM_UTF32_LE, "utf-32"),

@@ -11,7 +11,7 @@ from colift.agents.humans import load_recordings
 from colift.agents.humans.recording_notes import CITE, LICENCE, MARK, Notes
 from colift.agents.humans.recordings import COLUMNS, PERSON
 from colift.base.errors import InputError
-from colift.benchmark.recordings.taking import Take, Taken
+from colift.benchmark.recordings.takes import Take, Taken
 
 PHASE = "phase"
 """Column of the part of the lift: ``rise``, ``hold`` or ``lower``; empty at rest."""

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, Final
 
-from colift.benchmark.recordings.taking import Take
+from colift.benchmark.recordings.takes import Take
 from colift.benchmark.tables.printing import counted, left, table
 from rich.table import Table
 

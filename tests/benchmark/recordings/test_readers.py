@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from colift.benchmark.recordings.kinds import read_motions
-from colift.benchmark.recordings.taking import Wishes, takes_of
+from colift.benchmark.recordings.taking import takes_of
+from colift.benchmark.recordings.wishes import Wishes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 

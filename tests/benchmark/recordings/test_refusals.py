@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from colift.base.errors import InputError
 from colift.benchmark.recordings.cutting import Cut
-from colift.benchmark.recordings.taking import Wishes, takes_of
+from colift.benchmark.recordings.taking import takes_of
+from colift.benchmark.recordings.wishes import Wishes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
