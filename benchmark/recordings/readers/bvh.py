@@ -5,6 +5,7 @@ The place of a joint follows from its parent's: ``p = p_parent + R_parent t`` an
 offset, or its channels of position where it has them, as Blender and MotionBuilder write them.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,8 +14,10 @@ from typing import Final
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.recordings.motion import AXES, Motion
-from colift.benchmark.recordings.texts import numbers, split_lines, text_in
+from colift.benchmark.recordings.texts import is_number, numbers, split_lines, text_in
 from numpy.typing import NDArray
+
+CHANNEL: Final = re.compile(r"[xyz](position|rotation)")
 
 CENTIMETRE: Final = 0.01
 """The most usual unit; the format states none."""
@@ -52,10 +55,10 @@ def read(path: Path) -> tuple[Motion, ...]:
     lines = split_lines(after, " ", skipped)
     frames = next((line for line in lines if line.at(0).lower() == "frames:"), None)
     timed = next((line for line in lines if line.cells[:2] in (("Frame", "Time:"),)), None)
-    if not mark or frames is None or timed is None:
+    if not mark or frames is None or timed is None or not is_number(frames.at(1)):
         raise InputError(f"{where}: this BVH file has no motion, with 'Frames:' and 'Frame Time:'")
     data = [line for line in lines if line.number > timed.number]
-    count = int(frames.at(1))
+    count = int(float(frames.at(1)))
     width = sum(len(joint.channels) for joint in joints)
     if len(data) < count or any(len(line.cells) != width for line in data[:count]):
         raise InputError(
@@ -70,7 +73,7 @@ def read(path: Path) -> tuple[Motion, ...]:
         Motion(
             kind="a BVH file",
             names=tuple(joint.name for joint in joints),
-            times=interval * np.arange(count),
+            times=interval * np.arange(count, dtype=np.float64),
             positions=CENTIMETRE * _places(joints, values),
             places=np.array([line.number for line in data], dtype=np.intp),
             unit="",
@@ -100,7 +103,10 @@ def _joints(words: Iterator[str]) -> list[Joint]:
                 joints[-1].offset = np.array([float(next(words)) for _ in range(3)])
             case "CHANNELS":
                 for _ in range(int(next(words))):
-                    joints[-1].channels.append((next(words).lower(), column))
+                    name = next(words).lower()
+                    if not CHANNEL.fullmatch(name):
+                        raise ValueError
+                    joints[-1].channels.append((name, column))
                     column += 1
     if open_joints or not joints:
         raise ValueError

@@ -116,7 +116,7 @@ def _separate(
     by_time: dict[float, int] = {}
     seen: set[tuple[str, float]] = set()
     for i, label in zip(rows, labels, strict=True):
-        if (label, times[i]) in seen:  # A clock that stands still, which is refused later.
+        if (label, times[i]) in seen or np.isnan(times[i]):  # No clock, which is refused later.
             return titled, times[rows], positions[rows], [*rows]
         seen.add((label, times[i]))
         by_time.setdefault(float(times[i]), i)

@@ -1,5 +1,7 @@
 """What is no motion is refused with file, place, value and a way out; and the way out works."""
 
+from contextlib import suppress
+
 import numpy as np
 import pytest
 from colift.base.errors import InputError
@@ -283,3 +285,35 @@ def test_what_cannot_be_used_is_left_out_when_asked(path):
     assert [lift.trial for lift in take.lifts] == ["lift-2"]
     [text] = take.left_out
     assert "has a gap of 0.11 s" in text
+
+
+TIMES, HEIGHTS = files.lift(50.0, duration=4.0)
+
+
+@settings(
+    max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+@given(
+    write=st.sampled_from(
+        (files.vicon, files.qualisys, files.motive, files.trc, files.sto, files.bvh, files.long)
+    ),
+    mark=st.sampled_from((",", ";", "\t")),
+    cuts=st.lists(
+        st.tuples(
+            st.floats(0.0, 1.0),
+            st.sampled_from((0, 1, 20, 300)),
+            st.sampled_from((b"", b",", b"\n", b'"', b"nan", b"1e999", b"\xff", b"X", b"-", b"7")),
+        ),
+        min_size=1,
+        max_size=6,
+    ),
+)
+def test_a_damaged_file_is_read_or_refused(tmp_path, write, mark, cuts):
+    data = write(TIMES, files.points(HEIGHTS, "Z", ("RFIN", "C7")), Dialect(mark), 50.0)
+    for place, length, put in cuts:
+        start = int(place**3 * len(data))
+        data = data[:start] + put + data[start + length :]
+    path = tmp_path / "damaged.dat"
+    path.write_bytes(data)
+    with suppress(InputError):
+        takes_of(path, Wishes(hand="RFIN"))
