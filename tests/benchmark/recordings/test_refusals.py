@@ -317,3 +317,26 @@ def test_a_damaged_file_is_read_or_refused(tmp_path, write, mark, cuts):
     path.write_bytes(data)
     with suppress(InputError):
         takes_of(path, Wishes(hand="RFIN"))
+
+
+@pytest.mark.slow
+def test_a_damaged_c3d_file_never_ends_the_program(tmp_path):
+    ezc3d = pytest.importorskip("ezc3d", reason="needs ezc3d: uv sync --all-extras")
+    made = ezc3d.c3d()
+    made["parameters"]["POINT"]["UNITS"]["value"] = ["m"]
+    made["parameters"]["POINT"]["RATE"]["value"] = [50.0]
+    made["parameters"]["POINT"]["LABELS"]["value"] = ["RFIN"]
+    made["data"]["points"] = np.ones((4, 1, len(TIMES)))
+    made["data"]["points"][2, 0] = HEIGHTS
+    path = tmp_path / "take.c3d"
+    made.write(str(path))
+    whole, rng = path.read_bytes(), np.random.default_rng(3)
+    for _ in range(40):
+        data = bytearray(whole)
+        for place in rng.integers(2, 3000, 4):
+            data[place % len(data)] = rng.integers(256)
+        path.write_bytes(data)
+        with suppress(InputError):
+            takes_of(path, Wishes())
+    path.write_bytes(whole[: len(whole) - 900])
+    assert "the file was cut off" in refusal(path)
