@@ -108,29 +108,30 @@ def heights_of(motion: Motion, points: Sequence[int], up: str) -> tuple[Series, 
 
 def _indices(motion: Motion, chosen: str, option: str, where: str) -> list[int]:
     """Return the points of a choice: one, or several with plus signs between them."""
-    whole = _index(motion.names, chosen)
-    if whole is not None:
-        return [whole]
+    whole = _matching(motion.names, chosen)
     found = []
-    for part in chosen.split("+"):
-        index = _index(motion.names, part.strip())
-        if index is None:
+    for part in [chosen] if whole else chosen.split("+"):
+        indices = _matching(motion.names, part.strip())
+        if len(indices) > 1:
+            several = ", ".join(motion.names[i] for i in indices[:MOST_NAMES])
+            raise InputError(f"{where}: {option} {part!r:.60} may be {several}: name one in full")
+        if not indices:
             meant = did_you_mean(part, map(_bare, motion.names))
             raise InputError(
                 f"{where}: {option} {part!r:.60} is not there: {meant}the file has "
                 f"{_listed(motion.names)}"
             )
-        found.append(index)
+        found += indices
     return found
 
 
-def _index(names: Sequence[str], text: str) -> int | None:
-    """Return the point of a name, in any case, without its subject where it is clear."""
+def _matching(names: Sequence[str], text: str) -> list[int]:
+    """Return the points of a name: exactly, else in any case, else without their subjects."""
     for form in (str, str.casefold, _bare):
         found = [i for i, name in enumerate(names) if form(name) == form(text)]
-        if len(found) == 1:
-            return found[0]
-    return None
+        if found:
+            return found
+    return []
 
 
 def _bare(name: str) -> str:
@@ -159,7 +160,8 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
         raise InputError(
             f"{where}: none of its {'hands' if hands else 'points'} rises along {up}"
             f"{_other_axis(motion, candidates, up, rise)}: name the hand's marker, --marker NAME "
-            f"(it has {_listed(names)}), or the axis that points up, --up X, Y, Z or -Y"
+            f"(it has {_listed(names)}), or the axis that points up, --up X, Y, Z or -Y; somebody "
+            "who stands still is no lift: leave the file out"
         )
     best = min(moving, key=lambda i: (int(np.isnan(moving[i]).sum()), i))
     differing = [i for i, heights in moving.items() if not _alike(heights, moving[best])]

@@ -218,6 +218,20 @@ def test_an_unknown_marker_is_answered_with_the_known_ones(tmp_path):
     assert "the file has Anna:RFIN, Anna:LFIN" in text
 
 
+def test_a_name_that_two_subjects_have_is_a_choice(tmp_path):
+    times, heights = files.lift(100.0)
+    placed = files.points(heights, "Z", ("RFIN", "C7"))
+    path = tmp_path / "take.csv"
+    data = files.vicon(times, placed, Dialect(), 100.0).replace(b"Anna:C7", b"Bert:RFIN")
+    path.write_bytes(data)
+    assert "--marker 'RFIN' may be Anna:RFIN, Bert:RFIN: name one in full" in refusal(
+        path, hand="RFIN"
+    )
+    [take] = takes_of(path, Wishes(hand="anna:rfin", far="Bert:RFIN"))
+    assert take.track.hand == "Anna:RFIN"
+    assert take.lifts[0].far == pytest.approx(0.5)
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
