@@ -86,7 +86,8 @@ def _content(path: Path) -> Mapping[str, Any]:
             f"{path}: this begins as a C3D file, but cannot be read as one ({last:.100}): export "
             "or copy it again"
         )
-    return np.load(io.BytesIO(done.stdout))
+    content: Mapping[str, Any] = np.load(io.BytesIO(done.stdout), allow_pickle=False)
+    return content
 
 
 def _first(content: Mapping[str, Any], name: str) -> str:
