@@ -19,6 +19,7 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "compare": "compare:compare_policies",
         "summary": "summary:summarise_bundles",
         "channels": "channels:measure_channels",
+        "recordings": "recordings:make_recordings",
         "validity": "validity:validity",
         "pairs": "pairs:pairs",
         "list": "listing:list_all",

@@ -189,6 +189,7 @@ def chosen_suite(
     from colift.benchmark.real_lifts.suites import real_lifts
 
     lifts = real_lifts(recordings, as_recorded=as_recorded, robot=robot)
+    report_notes(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
 
@@ -217,6 +218,15 @@ def chosen_layout(text: str) -> Layout:
     """
     with naming("--for"):
         return find_layout(text)
+
+
+def report_notes(recordings: Path) -> None:
+    """Report on stderr the licence and the citation that a file of recordings states."""
+    from colift.agents.humans.recording_notes import notes_of
+
+    text = "" if recordings.is_dir() else notes_of(recordings).text()
+    if text:
+        print(f"{recordings.name}: {text}", file=sys.stderr)
 
 
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:

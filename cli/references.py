@@ -19,10 +19,17 @@ from colift.benchmark.references.sweep import NAMES, Swept, human_human_rmse, li
 from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
-from colift.benchmark.suites.suite import recorded_suite
+from colift.benchmark.suites.suite import Suite, recorded_suite
 from colift.benchmark.tables.printing import show, table
 from colift.benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
-from colift.cli.options import Jobs, LayoutName, check_figure, check_new_file, chosen_layout
+from colift.cli.options import (
+    Jobs,
+    LayoutName,
+    check_figure,
+    check_new_file,
+    chosen_layout,
+    report_notes,
+)
 from colift.cli.remedies import naming
 from colift.cli.tables.recordings import show_recordings
 from rich.table import Table
@@ -52,7 +59,7 @@ def references(
     jobs: Jobs = None,
 ) -> None:
     """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
-    suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
+    suite = held_out_suite(people, each, seed) if recordings is None else _recorded(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     beside = suite_references(suite)
     total = episodes_to_play(len(specs), suite, references=len(beside))
@@ -67,6 +74,11 @@ def references(
     show(_claims_table(found))
     if not all(claim.holds for claim in found):
         raise typer.Exit(1)
+
+
+def _recorded(recordings: Path) -> Suite:
+    report_notes(recordings)
+    return recorded_suite(recordings)
 
 
 def _claims_table(found: tuple[PolicyClaim, ...]) -> Table:
@@ -103,7 +115,7 @@ def ablate_policies(
     """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
     suites = [held_out_suite(people, each)]
     if recordings is not None:
-        suites.append(recorded_suite(recordings))
+        suites.append(_recorded(recordings))
     total = ROUNDS * lifts + (1 + len(VARIANTS)) * sum(suite.size for suite in suites)
     with workers("ablation", total, jobs) as (pool, progress):
         for suite in suites:

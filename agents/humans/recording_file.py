@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Final, NamedTuple
 
 from colift.agents.humans.foreign_files import foreign_format
+from colift.agents.humans.recording_notes import without_notes
 from colift.agents.humans.recordings import BESIDE, COLUMNS, PERSON, PHASE
 from colift.base.errors import InputError
 from colift.base.text import decoded, read_bytes
@@ -61,9 +62,10 @@ def read_rows(path: Path) -> Iterator[Row]:
     if name:
         raise InputError(
             f"{path}: this is {name}, must be a CSV file with the columns {','.join(COLUMNS)}: "
-            "write the time [s] and the height [m] of one marker of the hand to such a file"
+            "'colift recordings FILE --out lifts.csv' makes one of files of motion capture"
         )
-    reader = csv.reader(io.StringIO(decoded(data, str(path)), newline=""))
+    text = without_notes(decoded(data, str(path)))
+    reader = csv.reader(io.StringIO(text, newline=""))
     rows = (row for row in reader if any(map(str.strip, row)))
     try:
         header = [column.strip() for column in next(rows, ())]
@@ -138,7 +140,7 @@ def _check_header(path: Path, header: Sequence[str]) -> None:
 def _hint(header: Sequence[str]) -> str:
     """Return the likely cause of a header without the columns; empty if there is none."""
     lower = [column.lower() for column in header]
-    if header[0].startswith(("#", "%", "//")):
+    if header[0].startswith(("%", "//")):
         return f" (is this a comment? the first line must be {','.join(COLUMNS)})"
     if len(header) == 1:
         mark = "semicolons" if ";" in header[0] else "tabs" if "\t" in header[0] else ""

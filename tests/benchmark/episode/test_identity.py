@@ -39,8 +39,8 @@ APPEARANCE = ("colift.robots.nao.shapes",)
 ACCEPTANCE = tuple(
     f"colift.agents.humans.{name}"
     for name in (
-        *("artefacts", "beside", "copies", "foreign_files", "goals"),
-        *("recording_file", "treatment", "trial", "trial_file"),
+        *("artefacts", "beside", "copies", "foreign_files", "goals", "recording_file"),
+        *("recording_notes", "treatment", "trial", "trial_file"),
     )
 )
 """What refuses or describes recordings and live lifts: those that play do not depend on it."""
