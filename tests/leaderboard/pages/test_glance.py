@@ -6,10 +6,12 @@ import pytest
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.replays.chosen import replays_of
 from colift.leaderboard.replays.still import SIZE
+from colift.leaderboard.service.app import create_app
 from PIL import Image
 from playwright.sync_api import expect
 
 from ... import web
+from ...serving import serving
 
 pytestmark = pytest.mark.slow
 
@@ -85,5 +87,11 @@ def test_the_still_has_an_address_of_its_own(url, first):
     answer = web.get(f"{url}/seasons/2026/still.png")
     assert answer.headers["content-type"] == "image/png"
     assert Image.open(io.BytesIO(answer.content)).size == SIZE
-    assert web.get(f"{url}/seasons/1/still.png").status_code == 404
     assert web.get(f"{url}/seasons/9/still.png").status_code == 404
+
+
+def test_a_link_elsewhere_shows_the_still(folder, first):
+    with serving(create_app(folder, address="https://lab.example/course"), "/course") as url:
+        text = web.get(f"{url}/").text
+    place = "https://lab.example/course/seasons/2026/still.png"
+    assert f'<meta property="og:image" content="{place}">' in text
