@@ -29,11 +29,13 @@ log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""
 
 LEVELS: Final = {
-    BUBBLEWRAP: "own file system, processes, network and users; Landlock, filter",
-    LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
-    LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
+    BUBBLEWRAP: "all of landlock, within the walls of the program bubblewrap",
+    LANDLOCK: "the policy has files, processes, a network and users of its own, and may make only "
+    "the system calls of a short list",
+    LIMITS: "no walls: memory and time are limited, and files and system calls where the kernel "
+    "can do that",
 }
-"""The levels with their parts."""
+"""The levels, each in words."""
 
 VERIFIABLE: Final = frozenset({BUBBLEWRAP, LANDLOCK})
 """Levels whose results can be called verified: on the others a policy can cheat."""
