@@ -1,5 +1,7 @@
 """``colift token``: the submitters of a board on the web."""
 
+import csv
+import sys
 from typing import Annotated
 
 import typer
@@ -16,10 +18,22 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 
 
 @app.command()
-def add(name: Submitter, board: BoardFolder = BOARD) -> None:
-    """Create a submitter's token and print it; it cannot be shown again."""
+def add(
+    names: Annotated[list[str], typer.Argument(metavar="NAME...", help="The submitters' names.")],
+    board: BoardFolder = BOARD,
+) -> None:
+    """Create submitters' tokens and print them; they cannot be shown again.
+
+    The token of one submitter is printed alone, those of several as CSV: name,token.
+    """
     with opened_board(board, new=True) as opened:
-        print(Tokens(opened).add(name))
+        made = Tokens(opened).add_all(names)
+    if len(names) == 1:
+        print(made[names[0]])
+        return
+    rows = csv.writer(sys.stdout, lineterminator="\n")
+    rows.writerow(("name", "token"))
+    rows.writerows(made.items())
 
 
 @app.command()

@@ -14,15 +14,10 @@ from colift.benchmark.rendering.page import render, style
 from colift.leaderboard.replays.geometry import geometry
 from markupsafe import Markup
 
-SCRIPTS: Final = (
-    "replay-words.js",
-    "replay-lift.js",
-    "replay-bodies.js",
-    "replay-scene.js",
-    "replay-curves.js",
-    "replay-charts.js",
-    "replay.js",
-)
+SCENE: Final = ("replay-words.js", "replay-lift.js", "replay-bodies.js", "replay-scene.js")
+"""The scripts that draw a lift, in the order in which they are loaded."""
+
+SCRIPTS: Final = (*SCENE, "replay-curves.js", "replay-charts.js", "replay.js")
 """The scripts of the player, in the order in which they are loaded."""
 
 STYLE: Final = "replay.css"
@@ -58,7 +53,7 @@ def replay_page(replays: Sequence[Mapping[str, Any]]) -> str:
     if not replays:
         raise ValueError("there must be a replay")
     first = replays[0]
-    title = f"{first['policy']} lifts a table with a human"
+    title = f"{first['policy']} lifts a table with a person"
     suite = f"Suite {first['suite']}, digest {first['suite_digest']}. " if first["suite"] else ""
     return render(
         __package__,

@@ -22,6 +22,7 @@ from colift.leaderboard.service.errors import FaultHandler, Problem, answer_erro
 from colift.leaderboard.service.ranker import Ranker
 from colift.leaderboard.service.security import Guard, RateLimit
 from colift.leaderboard.service.uploads import remove_orphans
+from colift.leaderboard.views.page import NAME
 from fastapi import APIRouter, FastAPI
 from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
@@ -37,6 +38,7 @@ def create_app(
     folder: Path,
     rates: Rates | None = None,
     *,
+    name: str = NAME,
     contact: str = "",
     address: str = "",
     quota: Quota | None = None,
@@ -51,6 +53,8 @@ def create_app(
         The board's; see :func:`.open_with_practice`.
     rates
         Rate limits of clients.
+    name
+        Name of the board on its pages.
     contact
         Contact of the maintainer, shown with the rules.
     address
@@ -105,6 +109,7 @@ def create_app(
         queue=Queue(board, quota or Quota()),
         tokens=Tokens(board),
         uploads=RateLimit(rate=rates.submitter),
+        name=name,
         contact=contact,
         address=address,
         docs=docs,

@@ -95,4 +95,16 @@
       over: now.human.length < now.horizon && time > now.human.length * now.frame_s,
     };
   };
+
+  // Calls `step` with the time since the last call [s], whenever the browser draws, until it
+  // returns false.
+  colift.eachFrame = function (step) {
+    let before = null;
+    const frame = (stamp) => {
+      if (!step(before === null ? 0 : (stamp - before) / 1000)) return;
+      before = stamp;
+      window.requestAnimationFrame(frame);
+    };
+    window.requestAnimationFrame(frame);
+  };
 })();

@@ -251,18 +251,15 @@
     play() {
       if (this.time >= this.duration - 1e-6) this.time = 0;
       this.playing = true;
-      let before = null;
-      const tick = (stamp) => {
-        if (!this.playing) return;
-        if (before !== null && !this.held) {
-          this.time = Math.min(this.time + (this.speed * (stamp - before)) / 1000, this.duration);
+      colift.eachFrame((seconds) => {
+        if (!this.playing) return false;
+        if (!this.held) {
+          this.time = Math.min(this.time + this.speed * seconds, this.duration);
           if (this.time >= this.duration) this.playing = false;
           this.show();
         }
-        before = stamp;
-        window.requestAnimationFrame(tick);
-      };
-      window.requestAnimationFrame(tick);
+        return true;
+      });
       this.show();
     }
 

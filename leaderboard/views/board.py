@@ -20,6 +20,7 @@ from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
+from colift.leaderboard.views.glance import glance
 from colift.leaderboard.views.lifts import known
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
@@ -224,7 +225,12 @@ def _rounded(mean: float | None) -> float | None:
 
 def _shown(visit: Visit, season: str | None = None) -> Content:
     content = board_page(visit.board, season, visit.asked)
-    return {**content, "page": "front" if content["season"].current else "season"}
+    info = content["season"]
+    return {
+        **content,
+        "page": "front" if info.current else "season",
+        "glance": None if visit.asked.first else glance(visit, info.name),
+    }
 
 
 def _further(visit: Visit, season: str, number: str) -> Content:

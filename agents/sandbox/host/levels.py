@@ -1,9 +1,11 @@
 """The isolation levels, strongest first, and which of them work here."""
 
 import contextlib
+import ctypes
 import json
 import logging
 import math
+import mmap
 import os
 import socket
 import subprocess
@@ -27,11 +29,13 @@ log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""
 
 LEVELS: Final = {
-    BUBBLEWRAP: "own file system, processes, network and users; Landlock, filter",
-    LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
-    LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
+    BUBBLEWRAP: "all of landlock, within the walls of the program bubblewrap",
+    LANDLOCK: "the policy has files, processes, a network and users of its own, and may make only "
+    "the system calls of a short list",
+    LIMITS: "no walls: memory and time are limited, and files and system calls where the kernel "
+    "can do that",
 }
-"""The levels with their parts."""
+"""The levels, each in words."""
 
 VERIFIABLE: Final = frozenset({BUBBLEWRAP, LANDLOCK})
 """Levels whose results can be called verified: on the others a policy can cheat."""
@@ -209,12 +213,15 @@ def holes(name: str) -> list[str]:
 
 
 def _in_memory(path: Path) -> bool:
-    """Return whether the last page of a file is in memory."""
-    file = os.open(path, os.O_RDONLY | os.O_NOATIME)
+    """Return whether the last page of a file is in memory; its time of access stays as it is."""
+    handle = os.open(path, os.O_RDONLY | os.O_NOATIME)
     try:
-        os.preadv(file, [bytearray(1)], _SHARED - 1, os.RWF_NOWAIT)
-    except BlockingIOError:
-        return False
+        with mmap.mmap(handle, 0, access=mmap.ACCESS_COPY) as pages:
+            found = (ctypes.c_ubyte * math.ceil(len(pages) / mmap.PAGESIZE))()
+            start = ctypes.c_void_p(ctypes.addressof(ctypes.c_char.from_buffer(pages)))
+            # Not preadv with RWF_NOWAIT: the file systems of containers do not have it.
+            if ctypes.CDLL(None, use_errno=True).mincore(start, ctypes.c_size_t(len(pages)), found):
+                raise OSError(ctypes.get_errno(), "mincore")
     finally:
-        os.close(file)
-    return True
+        os.close(handle)
+    return bool(found[-1] & 1)
