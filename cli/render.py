@@ -166,19 +166,37 @@ def _report(out: Path, episode: Episode) -> None:
 
 # Drawing needs matplotlib, which is slow to load: not for the other commands.
 def _check(out: Path) -> None:
-    from colift.leaderboard.replays.lift_file import check_lift_file
+    from colift.benchmark.rendering.lift_file import KNOWN, check_lift_file
 
-    check_lift_file(out)
+    if out.suffix not in (*KNOWN, HTML):
+        known = ", ".join((*KNOWN, HTML))
+        raise InputError(f"cannot write {out}: its suffix must be one of {known}")
+    if out.suffix != HTML:
+        check_lift_file(out)
     check_output(out)
 
 
 def _write(
     out: Path, episode: Episode, played: Scenario, name: str, look: "Look", layout: Layout | None
 ) -> None:
-    from colift.leaderboard.replays.lift_file import pictures_in, write_lift
+    from colift.benchmark.rendering.lift_file import pictures_in, write_lift
 
+    if out.suffix == HTML:
+        _write_page(out, [(episode, played)], name)
+        return
     with progress_bar("drawing", pictures_in(out, episode, look)) as progress:
         write_lift(out, episode, played, name, look=look, layout=layout, drawn=progress)
+
+
+def _write_page(out: Path, lifts: Sequence[tuple[Episode, Scenario]], name: str) -> None:
+    from colift.leaderboard.replays.html import replay_page
+    from colift.leaderboard.replays.replay import play_ghost, replay_content
+
+    replays = [
+        replay_content(episode, played, play_ghost(played, episode.seed), policy=name)
+        for episode, played in lifts
+    ]
+    out.write_text(replay_page(replays), encoding="utf-8")
 
 
 def _render_bundle(
@@ -192,7 +210,6 @@ def _render_bundle(
     """Draw the worst lifts of a bundle, and report what does not follow from their actions."""
     from colift.benchmark.bundle.present import read_present
     from colift.benchmark.verification.replaying import replayed_lifts
-    from colift.leaderboard.replays.lift_file import write_page
 
     for name in OF_A_LIFT:
         source = context.get_parameter_source(name)
@@ -215,7 +232,7 @@ def _render_bundle(
             for finding in lift.findings[:1]:
                 print(f"note: it does not follow from the actions: {finding}", file=sys.stderr)
         if out.suffix == HTML:
-            write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
+            _write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
         for lift, file in zip(lifts, files, strict=True):
             if out.suffix != HTML:
                 _write(file, lift.episode, lift.scenario, run.policy, look, layout)

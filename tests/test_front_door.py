@@ -180,7 +180,8 @@ def test_an_evaluation_and_its_bundle_are_inspected_alike(copied, bundle):
     assert f"claims of the bundle {bundle}" in " ".join(str(stored).split())
     page = found._repr_html_()
     assert page.count('<img style="max-width: 100%" src="data:image/png;base64,') == 3
-    assert "<pre>copy on quick-v1: RMSE 21.03 mm" in page
+    assert "copy on quick-v1: RMSE 21.03 mm" in page
+    assert "<table" in page
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.baselines import BEST_KNOWN, HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
@@ -35,7 +35,7 @@ def ranks_table(comparison: Comparison) -> Table:
         title(comparison),
         (
             Column("#", justify="right"),
-            Column("policy", overflow="fold", min_width=NAME),
+            Column("policy", overflow="fold", min_width=len(reference_label(BEST_KNOWN))),
             *("RMSE mm", "95 %", "vs_human"),
             *(each.symbol for each in comparison.results.metrics),
         ),

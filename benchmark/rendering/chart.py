@@ -28,7 +28,7 @@ from colift.benchmark.rendering.style import (
     ROBOT_DASHES,
 )
 from matplotlib.artist import Artist
-from matplotlib.figure import FigureBase
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
@@ -120,12 +120,16 @@ class Chart:
             found.append([(1000 * trace.added[self._rolling[0].name], INK)])
         return found
 
-    def draw(self, figure: FigureBase, pen: Pen, moments: Sequence[int] = ()) -> "list[Axes]":
+    def draw(
+        self, figure: Figure | SubFigure, pen: Pen, moments: Sequence[int] = ()
+    ) -> "list[Axes]":
         """Draw all axes into a figure, whose size is that of the chart, and return them.
 
         There is a line at each of the moments, which are frames.
         """
-        width, height = 100 * figure.bbox.size / figure.dpi
+        width, height = (
+            100 * float(size) / figure.dpi for size in (figure.bbox.width, figure.bbox.height)
+        )
         strip, ratios = pen.strip, [1.0, PLACES][: self.panels]
         axes = list(
             figure.subplots(

@@ -115,7 +115,9 @@ def _drawn(
     figure = Figure(figsize=layout.size(above + below))
     FigureCanvasAgg(figure)
     total = figure.get_figheight()
-    upper, lower = figure.subfigures(2, 1, height_ratios=(above, total - above))
+    (upper,), (lower,) = figure.subfigures(
+        2, 1, squeeze=False, height_ratios=(above, total - above)
+    )
     upper.subplots_adjust(
         left=0,
         right=1,

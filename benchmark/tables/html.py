@@ -1,5 +1,6 @@
 """Tables and texts of a terminal as HTML for notebooks, light or dark."""
 
+from collections.abc import Sequence
 from itertools import chain, groupby
 from typing import Final
 
@@ -45,7 +46,7 @@ def _table(made: RenderableType) -> Markup:
     )
 
 
-def _row(cells: list[str], sides: list[str], kind: str) -> str:
+def _row(cells: Sequence[str], sides: Sequence[str], kind: str) -> str:
     inner = "".join(
         f"<{kind} style='text-align: {side}; {LINE}'>{cell}</{kind}>"
         for cell, side in zip(cells, sides, strict=True)

@@ -8,8 +8,7 @@ from colift.agents.sandbox.host.levels import LEVELS, VERIFIABLE
 from colift.benchmark.bundle import Results
 from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
-from colift.benchmark.rendering.style import PEOPLE
-from colift.benchmark.results.baselines import HUMAN_HUMAN
+from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
 from colift.benchmark.results.headline import error, versus_human
 from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.results.strata import (
@@ -22,7 +21,7 @@ from colift.benchmark.tables.printing import counted, optional_number, styled, t
 from rich.table import Table
 
 NAMES: Final = {
-    HUMAN_HUMAN: PEOPLE,
+    HUMAN_HUMAN: HUMAN_HUMAN_LABEL,
     "hold": "hold (never moves)",
     "copy": "copy (goes where the human was)",
 }
@@ -39,7 +38,7 @@ TIMES: Final = {
 }
 """The timed parts of a robot's step."""
 
-BESIDE: Final = f"{PEOPLE}: RMSE in mm of the human-human baseline on the same lifts."
+PEOPLE: Final = "two people: RMSE in mm of two simulated people on the same lifts."
 """Meaning of the column beside the RMSE."""
 
 QUARTILES: Final = "quartiles"
@@ -56,7 +55,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     summary, strata = content.summary, content.strata
     shown = [each for each in metrics.values() if each.shown != "file" and each.name != LEADING]
     behaviours = dict.fromkeys(each.behaviour for each in strata)
-    people = PEOPLE if len(shown) <= ON_ONE_LINE else "two\npeople"
+    people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     several = spread_over_people(strata).people > 1
     quartiles = (QUARTILES,) if several else ()
     spread = SPREAD if several else ALONE if summary.rmse_mm.ci95 is None else ""
@@ -73,7 +72,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
         ],
         caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
         f"suite digest {content.suite_digest}. "
-        + " ".join(filter(None, (BESIDE, spread, notes(shown)))),
+        + " ".join(filter(None, (PEOPLE, spread, notes(shown)))),
     )
 
 

@@ -21,8 +21,9 @@ def curves_figure(courses: Sequence[Course], layout: Layout) -> Figure:
     seeds = [(curve[:, 0], curve[:, 2]) for curve in curves]
     several = len(seeds) > 1
     for i, (steps, errors) in enumerate(seeds):
-        look = {"color": FAINT, "lw": 0.8} if several else {"color": ROBOT, "lw": 1.8}
-        axes.plot(steps, errors, label="each seed" if several and i == 0 else None, **look)
+        colour, width = (FAINT, 0.8) if several else (ROBOT, 1.8)
+        label = "each seed" if several and i == 0 else None
+        axes.plot(steps, errors, color=colour, lw=width, label=label)
     if several:
         shared = np.unique(np.concatenate([steps for steps, _ in seeds]))
         shared = shared[shared <= min(steps[-1] for steps, _ in seeds)]

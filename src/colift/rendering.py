@@ -37,13 +37,13 @@ class RenderedLift:
     def save(
         self, path: str | Path, layout: str | None = None, *, speed: float = 1.0, plays: int = 0
     ) -> None:
-        """Write the lift to a file, as ``colift render --out`` does.
+        """Write the lift to a file, as ``colift render --out`` does; only the command has pages.
 
         Parameters
         ----------
         path
             Film (``.gif``, ``.webp``, ``.mp4``), picture (``.png``), figure for print (``.svg``,
-            ``.pdf``), page with a player (``.html``) or model in 3-D (``.glb``).
+            ``.pdf``) or model in 3-D (``.glb``).
         layout
             Size of a figure, as ``--for``: ``"column"``, ``"page"`` or ``"slide"``; by default that
             of a page. A ``.png`` is a figure if this is given.
@@ -60,7 +60,7 @@ class RenderedLift:
         """
         from colift.benchmark.rendering.film import Look
         from colift.benchmark.rendering.layout import find_layout
-        from colift.leaderboard.replays.lift_file import write_lift
+        from colift.benchmark.rendering.lift_file import write_lift
 
         size = None if layout is None else find_layout(layout)
         look = Look(camera=self.camera, speed=speed, plays=plays)

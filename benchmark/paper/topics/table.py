@@ -171,7 +171,7 @@ def table_exhibit(table: TableOne, layout: Layout) -> Exhibit:
                 index + shift + BESIDE,
                 color=INK,
                 lw=1.6,
-                label="the paper" if first and shift > 0 else None,
+                label="the paper" if first and shift > 0 else "_",
             )
     level = table.human_human.mean
     axes.axhline(level, color="#009E73", lw=1.4, ls=DASHES, label="two people")

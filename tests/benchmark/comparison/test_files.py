@@ -135,7 +135,7 @@ def test_the_picture_fits_a_readme(folder: Path) -> None:
 
 def test_the_words_say_who_wins_and_who_failed(comparison: Comparison) -> None:
     assert verdict(comparison) == (
-        "leader is the most level: 11.5 mm, 1.27 times two people's error on the "
+        "leader is the most level: 11.5 mm, 1.27 times the error of two people on the "
         "same lift (mean 9.5 mm). "
         "twin cannot be distinguished from it."
     )

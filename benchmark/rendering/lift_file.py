@@ -1,6 +1,6 @@
-"""A lift as a file: film, picture, figure for print, page with a player, or model in 3-D."""
+"""A lift as a file: film, picture, figure for print, or model in 3-D."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import Final
 
@@ -13,12 +13,9 @@ from colift.benchmark.rendering.gltf import check_model, write_model
 from colift.benchmark.rendering.layout import PAGE, VECTOR, Layout
 from colift.benchmark.rendering.lift_figure import lift_figure, lift_title
 from colift.benchmark.rendering.writing import SUFFIXES, check_film
-from colift.leaderboard.replays.html import replay_page
-from colift.leaderboard.replays.replay import play_ghost, replay_content
 
-HTML: Final = ".html"
 MODEL: Final = ".glb"
-KNOWN: Final = tuple(dict.fromkeys((*SUFFIXES, *VECTOR, HTML, MODEL)))
+KNOWN: Final = tuple(dict.fromkeys((*SUFFIXES, *VECTOR, MODEL)))
 """Suffixes of the files of a lift."""
 
 
@@ -68,9 +65,7 @@ def write_lift(
         As :func:`check_lift_file`, or if there is nothing to show.
     """
     check_lift_file(path)
-    if path.suffix == HTML:
-        write_page(path, [(episode, scenario)], policy)
-    elif path.suffix == MODEL:
+    if path.suffix == MODEL:
         write_model(path, episode, scenario, policy)
     elif path.suffix in VECTOR or (path.suffix == ".png" and layout is not None):
         figure = lift_figure(episode, scenario, layout or PAGE, camera=look.camera)
@@ -85,12 +80,3 @@ def pictures_in(path: Path, episode: Episode, look: Look = DEFAULT_LOOK) -> int:
     """Return the number of pictures that are drawn for a file of a lift."""
     film = path.suffix in SUFFIXES and path.suffix != ".png"
     return len(shown_frames(episode, FPS / look.speed)) if film else 1
-
-
-def write_page(path: Path, lifts: Sequence[tuple[Episode, Scenario]], policy: str) -> None:
-    """Write lifts as one page with a player, each with two people in it."""
-    replays = [
-        replay_content(episode, played, play_ghost(played, episode.seed), policy=policy)
-        for episode, played in lifts
-    ]
-    path.write_text(replay_page(replays), encoding="utf-8")
