@@ -54,7 +54,8 @@ def board_page(
     computed. ``slow`` rows are not real-time and ranked among themselves, ``out`` are unverified,
     withdrawn or removed. ``people`` is the human-human baseline on the lifts of the lines,
     ``human_human`` that on the hidden ones, ``human_human_mm`` that on the public lifts of each
-    behaviour; ``events`` are those of the season and its rows, newest first.
+    behaviour; ``events`` are those of the season and its rows, newest first. ``glance`` is for a
+    lift that needs more than a board, see :func:`.glance`.
 
     Parameters
     ----------
@@ -127,6 +128,7 @@ def board_page(
         "most_pictured": PICTURED,
         "pictured": sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
         "data": _drawn(info.suite, axis, lines.rows, strata, known_references),
+        "glance": None,
     }
 
 
