@@ -102,7 +102,7 @@ def test_imports_in_the_documentation_exist(page):
 
 def test_a_glossary_entry_stands_once():
     terms = re.findall(
-        r"^\| \*\*(.+?)\*\*", (ROOT / "docs/reference/glossary.md").read_text(), re.MULTILINE
+        r"^- \*\*(.+?)\*\*: ", (ROOT / "docs/reference/glossary.md").read_text(), re.MULTILINE
     )
     assert len(terms) >= 35
     assert len(terms) == len(set(terms))

@@ -9,3 +9,7 @@ function mark(box) {
 
 const sizes = new ResizeObserver((seen) => seen.forEach(({ target }) => mark(target)));
 for (const box of document.querySelectorAll(BOXES)) sizes.observe(box);
+
+// The theme has two landmarks of one kind without names.
+document.querySelector(".sidebar-drawer")?.setAttribute("aria-label", "Site");
+document.querySelector(".toc-drawer")?.setAttribute("aria-label", "Page");
