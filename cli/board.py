@@ -40,7 +40,7 @@ def board(
         ),
     ] = None,
 ) -> None:
-    """Print a board's table: ranks, RMSE with its interval, and the human-human baseline.
+    """Print a board's table: ranks, RMSE with its interval, and two people.
 
     Example: colift board --board board
     """

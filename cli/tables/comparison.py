@@ -42,7 +42,7 @@ def ranks_table(comparison: Comparison) -> Table:
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
-        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
+        + f" vs_human: RMSE over that of {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 
