@@ -90,8 +90,12 @@ class Members(SphinxDirective):
 
 
 def _default(field: "dataclasses.Field[Any]") -> str:
-    """Return the default as JSON and TOML write it."""
-    return "" if field.default is dataclasses.MISSING else f"`{json.dumps(field.default)}`"
+    """Return the default as JSON and TOML write it; that of another class by its name."""
+    if field.default is dataclasses.MISSING:
+        return ""
+    if dataclasses.is_dataclass(field.default):
+        return f"`{type(field.default).__name__}()`"
+    return f"`{json.dumps(field.default)}`"
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
