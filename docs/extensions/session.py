@@ -16,6 +16,9 @@ from page_session import Session
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+LOADING: Final = 120
+"""Longest time that a page may take to be shown [s]: others are built at the same time."""
+
 LANGUAGES: Final = {".py": "python", ".toml": "toml", ".urdf": "xml"}
 """Languages of files by their suffixes."""
 
@@ -169,6 +172,7 @@ class Screenshot(Picture):
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"))
             page = browser.new_page(viewport=size)
+            page.set_default_timeout(1000 * LOADING)
             response = page.goto(self.session.real(address), wait_until="networkidle")
             if response is None or not response.ok:
                 raise self.severe(f"{address} cannot be shown: {response and response.status}")

@@ -1,4 +1,4 @@
-"""The actor of a model of Stable-Baselines3, trained in ``training_env()``, as an ONNX file."""
+"""The actor of a model of Stable-Baselines3 as an ONNX file."""
 
 import torch
 from stable_baselines3 import PPO
