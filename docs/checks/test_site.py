@@ -18,13 +18,18 @@ SAMPLES = {
 }
 """Pages that stand for all of their folder, which are made alike."""
 
+LISTS = {"genindex", "py-modindex", "sg_execution_times"}
+"""Lists of Sphinx's own, to which no page leads."""
+
 WIDE, PHONE = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 
 
 def pages():
     """Return the pages, relative to the site."""
     found = sorted(str(path.relative_to(SITE).with_suffix("")) for path in SITE.rglob("*.html"))
-    written = [each for each in found if not each.startswith(("_", "generated/"))]
+    written = [
+        each for each in found if not each.startswith(("_", "generated/")) and each not in LISTS
+    ]
     return [*written, *(f"{folder}/{name}" for folder, names in SAMPLES.items() for name in names)]
 
 
@@ -84,10 +89,13 @@ def test_search_finds_a_name_of_the_code(page, address):
 
 @pytest.mark.parametrize("name", pages())
 def test_everybody_can_read_a_page(page, address, name):
-    """Nothing for axe-core, in light and dark; on a telephone, only boxes scroll sideways."""
-    for scheme, size in (("light", WIDE), ("dark", WIDE), ("light", PHONE)):
-        page.set_viewport_size(size)
-        page.emulate_media(color_scheme=scheme, reduced_motion="reduce")
-        page.goto(f"{address}/{name}.html")
-        assert violations(page) == [], (scheme, size)
+    """Nothing for axe-core, in light and dark; on a telephone, what scrolls is reached by keys."""
+    page.set_viewport_size(WIDE)
+    page.emulate_media(color_scheme="light", reduced_motion="reduce")
+    page.goto(f"{address}/{name}.html")
+    assert violations(page) == []
+    page.emulate_media(color_scheme="dark", reduced_motion="reduce")
+    assert violations(page, {"runOnly": ["color-contrast"]}) == []
+    page.set_viewport_size(PHONE)
+    assert violations(page, {"runOnly": ["scrollable-region-focusable"]}) == []
     assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
