@@ -43,7 +43,10 @@ def board(
         ),
     ] = None,
 ) -> None:
-    """Print a board's table: ranks, RMSE with its interval, and the human-human baseline."""
+    """Print a board's table: ranks, RMSE with its interval, and two people.
+
+    Example: colift board --board board
+    """
     check_exclusive(json=as_json, site=site, backup=backup, restore=from_backup)
     if title != NAME and site is None:
         raise InputError("--title belongs to --site: it is the name on the pages")

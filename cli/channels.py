@@ -71,7 +71,10 @@ def measure_channels(
     layout: LayoutName = PAGE.name,
     as_json: AsJson = False,
 ) -> None:
-    """Measure policies with and without a network that delays and loses messages."""
+    """Measure policies with and without a network that delays and loses messages.
+
+    Example: colift channels blend anticipate --channel satellite
+    """
     episodes = chosen_suite(suite, seeds, recordings, behaviour, as_recorded=as_recorded)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}

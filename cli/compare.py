@@ -113,6 +113,8 @@ def compare_policies(
 
     With --out, each lift is saved when it is finished, and an interrupted comparison can be
     resumed.
+
+    Example: colift compare copy blend anticipate --suite quick-v1
     """
     if resume and out is None:
         raise InputError("--resume needs the --out of the comparison that was interrupted")

@@ -58,7 +58,10 @@ def references(
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Compare the best policies with the references on drawn subjects, and test their claims.
+
+    Example: colift references --people 4 --each 1
+    """
     suite = held_out_suite(people, each, seed) if recordings is None else _recorded(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     beside = suite_references(suite)
@@ -112,7 +115,10 @@ def ablate_policies(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Measure the error of anticipate without each of its parts, on drawn subjects.
+
+    Example: colift ablate --people 4 --each 1
+    """
     suites = [held_out_suite(people, each)]
     if recordings is not None:
         suites.append(_recorded(recordings))
@@ -169,7 +175,10 @@ def sweep_rates(
     layout: LayoutName = PAGE.name,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Measure the best policies at other latencies and control periods, on drawn subjects.
+
+    Example: colift sweep --people 4 --each 1 --out sweep.png
+    """
     check_figure(out)
     size = chosen_layout(layout)
     if out is not None:

@@ -25,6 +25,8 @@ def add(
     """Create submitters' tokens and print them; they cannot be shown again.
 
     The token of one submitter is printed alone, those of several as CSV: name,token.
+
+    Example: colift token add ada --board board
     """
     with opened_board(board, new=True) as opened:
         made = Tokens(opened).add_all(names)
@@ -38,7 +40,10 @@ def add(
 
 @app.command()
 def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
-    """Revoke a submitter's token, effective at once."""
+    """Revoke a submitter's token, effective at once.
+
+    Example: colift token revoke ada --board board
+    """
     with opened_board(board) as opened:
         Tokens(opened).revoke(name)
     print(f"the token of {name} is revoked")
@@ -46,7 +51,10 @@ def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
 
 @app.command("list")
 def list_tokens(board: ExistingBoard = BOARD) -> None:
-    """List the submitters, with the dates of their tokens."""
+    """List the submitters, with the dates of their tokens.
+
+    Example: colift token list --board board
+    """
     with opened_board(board, open_to_read) as opened:
         found = Tokens(opened).all()
     rows = (

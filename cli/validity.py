@@ -78,7 +78,10 @@ def validity(
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Judge how well suites predict the order and the size of scores on real lifts."""
+    """Judge how well suites predict the order and the size of scores on real lifts.
+
+    Example: colift validity lifts.csv
+    """
     sources = sources_of(data, as_recorded=as_recorded)
     for path, real in zip(data, sources, strict=True):
         report_notes(path)

@@ -36,7 +36,7 @@ _REFUSALS: Final = (
 """Errors of the kernel: a hidden ``/proc``, a limit of namespaces, a security module, a setting, a
 filter."""
 
-GUIDE: Final = "see docs/guides/submissions.md"
+GUIDE: Final = "see docs/guides/sandbox.md"
 
 
 def in_words(reason: str) -> str:
