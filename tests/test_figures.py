@@ -15,6 +15,7 @@ QUESTIONS = ROOT / "leaderboard" / "pages" / "templates" / "open.md"
 
 MINUS = "\N{MINUS SIGN}"
 INCLUDED = r"^```\{literalinclude\} /figures/(\S+)$"
+TABLE = r"^```\{result-table\} (\S+)$"
 PICTURE = r"!\[[^\]]*\]\([^)]*figures/([^)]+)\)"
 QUOTED = r"\{figure\}`([^|`]+)\|([^`]+)`"
 
@@ -25,9 +26,14 @@ def words(text):
 
 
 def shown(page):
-    """Return the names of the files of figures that a page shows."""
+    """Return the names of the files of figures that a page shows with a command of its own."""
     text = page.read_text()
     return re.findall(INCLUDED, text, re.MULTILINE) + re.findall(PICTURE, text)
+
+
+def tables(page):
+    """Return the names of the figures whose tables a page shows; each table has its command."""
+    return re.findall(TABLE, page.read_text(), re.MULTILINE)
 
 
 def printed(name):
@@ -64,6 +70,7 @@ def test_a_page_names_the_command_of_each_figure_that_it_shows(page):
 def test_every_figure_is_shown_or_quoted_somewhere():
     used = {file for page in PAGES for file in shown(page)}
     quoted = {name for page in PAGES for name, _ in re.findall(QUOTED, page.read_text())}
+    quoted.update(name for page in PAGES for name in tables(page))
     assert [
         name
         for name, figure in FIGURES.items()
