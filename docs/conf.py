@@ -22,6 +22,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "array_types",
     "attributes",
+    "catalogue",
     "commands",
     "environment",
     "fields",
