@@ -98,8 +98,8 @@ def _command(text: str) -> nodes.Node:
     """Return the command: within the line, if it is one."""
     if "\n" in text:
         return nodes.literal_block(text, text, language="console")
-    line = nodes.paragraph("", "Printed by ", classes=["printed"])
-    return line + [nodes.literal(text, text), nodes.Text(":")]
+    parts = nodes.Text("Printed by "), nodes.literal(text, text), nodes.Text(":")
+    return nodes.paragraph("", "", *parts, classes=["printed"])
 
 
 def _table(printed: PrintedTable, title: str) -> nodes.table:
