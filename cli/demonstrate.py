@@ -24,7 +24,7 @@ def demonstrate_lifts(
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     jobs: Jobs = None,
 ) -> None:
-    """Record lifts by two simulated people: drawn subjects, all behaviours, seeds in no suite."""
+    """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
     check_new_file(out)
     with reported_interrupt(f"{out} is not written"):
         recorded = record(lifts, seed, jobs)

@@ -36,8 +36,8 @@ ITERATIONS: Final = (35, 200, 0)
 POLICIES: Final = ("anticipate", "blend", "copy", "random")
 """Two that predict, one that follows, and one that jerks the table."""
 
-PAIR: Final = "two people"
-"""Name of a person and the second person."""
+PAIR: Final = "two humans"
+"""Name of the human-human team."""
 
 PLAYERS: Final[Mapping[str, Sequence[str]]] = {
     "level": POLICIES,

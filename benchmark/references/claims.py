@@ -16,7 +16,7 @@ RIVALS: Final = ("anticipate", "blend", "reactive")
 
 TO_HUMAN_HUMAN: Final = {"smooth": 0.70, "pause": 0.70, "jerky": 1.15, "changing_goal": 0.70}
 TO_HUMAN_HUMAN_OVER_ALL: Final = 0.75
-"""Largest RMSE over two people's, on each behaviour and over all."""
+"""Largest RMSE over the human-human baseline's, on each behaviour and over all."""
 
 TO_BEST_KNOWN: Final = 1.2
 TO_BEST_KNOWN_OVER_ALL: Final = 1.1
@@ -73,7 +73,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
     behaviours = dict.fromkeys(behaviour for behaviour, _ in human_human.strata)
     for behaviour in behaviours:
         if behaviour in TO_HUMAN_HUMAN:
-            ratio("two people", human_human, behaviour, TO_HUMAN_HUMAN[behaviour])
+            ratio("the human-human baseline", human_human, behaviour, TO_HUMAN_HUMAN[behaviour])
             if best is not None:
                 ratio("the best known policy", best, behaviour, TO_BEST_KNOWN)
         if behaviour in ("smooth", RECORDED):
@@ -89,7 +89,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
                 )
             )
     if set(behaviours) == set(TO_HUMAN_HUMAN):
-        ratio("two people", human_human, None, TO_HUMAN_HUMAN_OVER_ALL)
+        ratio("the human-human baseline", human_human, None, TO_HUMAN_HUMAN_OVER_ALL)
         if best is not None:
             ratio("the best known policy", best, None, TO_BEST_KNOWN_OVER_ALL)
     ratio("anticipate", anticipate, None, TO_ANTICIPATE)

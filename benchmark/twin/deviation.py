@@ -27,8 +27,8 @@ POLICIES: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
 )
 """For each task, policies that are fixed, and at least one that was learned."""
 
-PAIR: Final = "two people"
-"""Name of a person and the second person."""
+PAIR: Final = "two humans"
+"""Name of the human-human team."""
 
 PEOPLE: Final = range(210_000, 210_010)
 """Seeds of people and lifts outside all suites, none of which is used for learning."""

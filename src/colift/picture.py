@@ -23,7 +23,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
     run
         The lifts: a dot each, and a solid line at the mean of each behaviour.
     results
-        Its results: a dashed line at the mean of two people.
+        Its results: a dashed line at the mean of the human-human baseline.
     """
     behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
     figure = Figure(figsize=(7.0, 1.0 + ROW * len(behaviours)), layout="constrained")
@@ -40,7 +40,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
         ends = [row - 0.3, row + 0.3]
         axes.plot([np.mean(errors)] * 2, ends, color=ROBOT, lw=2, label=_once(run.policy, row))
         axes.plot(
-            [human_human] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two people", row)
+            [human_human] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two humans", row)
         )
     axes.set_yticks(range(len(behaviours)), behaviours)
     axes.set_ylim(len(behaviours) - 0.5, -0.5)

@@ -124,7 +124,7 @@ def _human_human(table: TableOne) -> Claim:
     better = high < blend.ci95[0] and blend.ci95[1] < reactive.ci95[0]
     near = abs(human_human.mean - human_human.paper) <= BASELINE
     return Claim(
-        claim="Two people do better than a human with the robot, with prediction or without.",
+        claim="Two humans do better than a human with the robot, with prediction or without.",
         figure="figure 9, Table I",
         paper=f"{human_human.paper:.3f} mm (one pair of people, no standard deviation given)",
         criterion=f"baseline below blend below reactive with intervals apart, and "
@@ -178,7 +178,7 @@ def table_exhibit(table: TableOne) -> Exhibit:
         name="table-1",
         title="Table I as a picture",
         caption="Mean error of each subject without and with prediction, with 95 % intervals; the "
-        "dashes are the paper's means, the broken line is two people here.",
+        "dashes are the paper's means, the broken line is our human-human baseline.",
         figure=figure,
         columns={
             "subject": [row.subject for row in rows],
