@@ -31,7 +31,7 @@ def calibrate(
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
             print(
                 f"round {number} of {ROUNDS}: worst cell {100 * fit.worst_cell:.1f} % off, "
-                f"human-human {fit.human_human:.3f} mm"
+                f"two people {fit.human_human:.3f} mm"
             )
     show(_table(fit))
     write_output(out, calibration_json(fit))

@@ -50,7 +50,7 @@ def run(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Evaluate a policy on a suite, and compare it with the human-human baseline.
+    """Evaluate a policy on a suite, and compare it with two people.
 
     With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
     """

@@ -49,8 +49,8 @@ def summarise_bundles(
             "RMSE divided by that of two people, on each suite",
             (left("policy"), *suites),
             _rows(found, suites),
-            caption="With 95 % intervals. Below 1 is better than the human-human baseline on the "
-            "same lifts. There is no mean over suites, since they measure different things.",
+            caption="With 95 % intervals. Below 1 is better than two people on the same lifts."
+            " There is no mean over suites, since they measure different things.",
         )
     )
 

@@ -129,10 +129,7 @@ def test_workers_give_the_same(copied):
 def test_what_it_prints_and_holds(copied):
     text = str(copied)
     assert text.startswith("copy on quick-v1")
-    assert all(
-        name in text
-        for name in ("smooth", "pause", "jerky", "changing_goal", "human-human baseline")
-    )
+    assert all(name in text for name in ("smooth", "pause", "jerky", "changing_goal", "two people"))
     assert f"RMSE {copied.rmse_mm:.2f} mm" in text
     assert not any(line.endswith(" ") for line in text.splitlines())
     low, high = copied.rmse_mm_ci95
@@ -153,7 +150,7 @@ def test_its_rows_and_its_frame(copied):
 def test_what_a_notebook_shows(copied):
     page = copied._repr_html_()
     assert page.startswith("<svg")
-    assert "two humans" in page
+    assert "two people" in page
     assert "<pre>copy on quick-v1" in page
 
 

@@ -57,7 +57,7 @@ def sweep_figure(swept: Sequence[Swept], human_human: float, title: str) -> Figu
 def _panel(axes: Axes, swept: Sequence[Swept], along: str, human_human: float) -> None:
     style_axes(axes)
     axes.set_xticks(sorted({1000 * getattr(each, along) for each in swept}))
-    axes.axhline(human_human, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="human-human baseline")
+    axes.axhline(human_human, color=HUMAN, lw=1.2, ls=(0, (4, 3)), label="two people")
     for name, (colour, line, marker) in LOOKS.items():
         points = sorted((1000 * getattr(s, along), s.rmse_mm) for s in swept if s.policy == name)
         axes.plot(

@@ -25,7 +25,7 @@ from colift.benchmark.suites.suite import Suite
 HUMAN_HUMAN: Final = "human_human"
 """Key of the human-human baseline."""
 
-HUMAN_HUMAN_LABEL: Final = "human-human baseline"
+HUMAN_HUMAN_LABEL: Final = "two people"
 """Its name in tables and pictures."""
 
 BEST_KNOWN: Final = "best_known"

@@ -38,7 +38,7 @@ TIMES: Final = {
 }
 """The timed parts of a robot's step."""
 
-PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
+PEOPLE: Final = "two people: RMSE in mm of two simulated people on the same lifts."
 """Meaning of the column beside the RMSE."""
 
 QUARTILES: Final = "quartiles"

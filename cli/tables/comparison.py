@@ -7,7 +7,7 @@ from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.baselines import BEST_KNOWN, HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
@@ -35,14 +35,14 @@ def ranks_table(comparison: Comparison) -> Table:
         title(comparison),
         (
             Column("#", justify="right"),
-            Column("policy", overflow="fold", min_width=len(HUMAN_HUMAN_LABEL)),
+            Column("policy", overflow="fold", min_width=len(reference_label(BEST_KNOWN))),
             *("RMSE mm", "95 %", "vs_human"),
             *(each.symbol for each in comparison.results.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
-        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
+        + f" vs_human: RMSE over that of {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 

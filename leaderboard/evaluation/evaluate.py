@@ -199,7 +199,7 @@ def play_human_human(
         As :func:`evaluate`.
     """
     watch = watch or Callbacks()
-    watch.stage("human-human baseline")
+    watch.stage("two people")
     return ScoreTable.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
 
 

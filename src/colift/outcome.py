@@ -41,7 +41,7 @@ class Evaluation:
 
     @property
     def vs_human(self) -> float:
-        """RMSE over that of the human-human baseline, geometric mean; below 1 is better."""
+        """RMSE over that of two people, geometric mean; below 1 is better."""
         ratio = self.results.summary.vs_human
         assert ratio is not None  # Evaluations always have the baselines.
         return ratio.mean

@@ -40,7 +40,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
         ends = [row - 0.3, row + 0.3]
         axes.plot([np.mean(errors)] * 2, ends, color=ROBOT, lw=2, label=_once(run.policy, row))
         axes.plot(
-            [human_human] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two humans", row)
+            [human_human] * 2, ends, "--", color=HUMAN, lw=1.5, label=_once("two people", row)
         )
     axes.set_yticks(range(len(behaviours)), behaviours)
     axes.set_ylim(len(behaviours) - 0.5, -0.5)

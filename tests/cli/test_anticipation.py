@@ -27,7 +27,7 @@ def test_references_tell_claims_and_whether_they_hold(colift):
     code, told, errors = colift("references", "--people", "1", "--each", "1", "--jobs", "1")
     assert code in (0, 1)
     assert errors == ""
-    for name in ("anticipate", "best known (trained)", "oracle", "human-human baseline", "Claims"):
+    for name in ("anticipate", "best known (trained)", "oracle", "two people", "Claims"):
         assert name in told
     assert ("NO" in told) == (code == 1)
 

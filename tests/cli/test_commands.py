@@ -44,7 +44,7 @@ def test_run_prints_a_table_and_where_the_policy_stands(colift):
         "jerky",
         "changing_goal",
         "hold (never",
-        "human-human baseline",
+        "two people",
     ):
         assert told in done.stdout
 

@@ -15,7 +15,7 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     done = colift("compare", "hold", "copy", *QUICK, "--out", str(out))
     assert done.returncode == 0
     assert done.stderr == ""
-    names = ("oracle", "best known (trained)", "human-human baseline", "copy", "hold")
+    names = ("oracle", "best known (trained)", "two people", "copy", "hold")
     places = [done.stdout.index(f" {name} ") for name in names]
     assert places == sorted(places)
     for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):

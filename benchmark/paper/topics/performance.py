@@ -180,11 +180,11 @@ def human_human_exhibit(episode: Episode, limit: float) -> Exhibit:
     """Return figure 9: two humans, the error's axis up to ``limit`` [mm]."""
     return Exhibit(
         name="figure-9",
-        title="Figure 9. The human-human baseline",
-        caption=f"Subject {episode.subject}, seed {episode.seed}, with a second human at the far "
+        title="Figure 9. Two people",
+        caption=f"Subject {episode.subject}, seed {episode.seed}, with a second person at the far "
         "end instead of the robot: the same intention as in figure 8, and the "
         "same scale of the error.",
-        figure=_figure({"two humans": episode}, "partner's end", limit),
+        figure=_figure({"two people": episode}, "partner's end", limit),
         columns=_columns(episode, ""),
     )
 

@@ -124,7 +124,7 @@ def _human_human(table: TableOne) -> Claim:
     better = high < blend.ci95[0] and blend.ci95[1] < reactive.ci95[0]
     near = abs(human_human.mean - human_human.paper) <= BASELINE
     return Claim(
-        claim="Two humans do better than a human with the robot, with prediction or without.",
+        claim="Two people do better than a human with the robot, with prediction or without.",
         figure="figure 9, Table I",
         paper=f"{human_human.paper:.3f} mm (one pair of people, no standard deviation given)",
         criterion=f"baseline below blend below reactive with intervals apart, and "
@@ -170,7 +170,7 @@ def table_exhibit(table: TableOne) -> Exhibit:
                 label="the paper" if first and shift > 0 else None,
             )
     level = table.human_human.mean
-    axes.axhline(level, color="#009E73", lw=1.4, ls=(0, (4, 3)), label="two humans")
+    axes.axhline(level, color="#009E73", lw=1.4, ls=(0, (4, 3)), label="two people")
     axes.set_xticks(range(len(rows)), [row.subject for row in rows])
     axes.set_ylim(bottom=0)
     legend(axes)
@@ -178,7 +178,7 @@ def table_exhibit(table: TableOne) -> Exhibit:
         name="table-1",
         title="Table I as a picture",
         caption="Mean error of each subject without and with prediction, with 95 % intervals; the "
-        "dashes are the paper's means, the broken line is our human-human baseline.",
+        "dashes are the paper's means, the broken line is two people, here.",
         figure=figure,
         columns={
             "subject": [row.subject for row in rows],

@@ -102,7 +102,7 @@ def test_the_page_is_whole_and_needs_nothing_else(folder: Path, comparison: Comp
     assert all(target.startswith("#") for target in page.targets)
     assert "url(http" not in source
     assert "<script" not in source
-    for told in ("leader", "human-human baseline", "By behaviour", "By subject", "jerky", "P2"):
+    for told in ("leader", "two people", "By behaviour", "By subject", "jerky", "P2"):
         assert told in page.text
     assert verdict(comparison) in page.text
     assert failures(comparison)[0] in page.text
@@ -127,7 +127,7 @@ def test_the_picture_fits_a_readme(folder: Path) -> None:
 
 def test_the_words_say_who_wins_and_who_failed(comparison: Comparison) -> None:
     assert verdict(comparison) == (
-        "leader is the most level: 11.5 mm, 1.27 times the human-human baseline's error on the "
+        "leader is the most level: 11.5 mm, 1.27 times the error of two people on the "
         "same lift (mean 9.5 mm). "
         "twin cannot be distinguished from it."
     )

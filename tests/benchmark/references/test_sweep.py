@@ -53,7 +53,7 @@ def test_the_picture_has_a_line_for_each_in_both_panels():
     figure = sweep_figure(swept, 9.0, "Title")
     for axes, count in zip(figure.axes, (5, 5), strict=True):
         lines = {line.get_label(): line for line in axes.get_lines()}
-        assert set(lines) == {"human-human baseline", *NAMES}
+        assert set(lines) == {"two people", *NAMES}
         for i, name in enumerate(NAMES):
             assert list(lines[name].get_ydata()) == [i] * count
         assert list(lines["oracle"].get_xdata()) == sorted(lines["oracle"].get_xdata())

@@ -60,7 +60,7 @@ def test_a_submission_becomes_a_verified_row(board, queue, write_submission):
     done = Worker(WorkerQueue(queue.board), name="one").once(watch=watch)
     assert (done.id, done.state, done.attempt, done.worker) == (job.id, "done", 1, "one")
     assert done.done == done.total > 8
-    assert stages == ["human-human baseline", *STAGES]
+    assert stages == ["two people", *STAGES]
     assert "running" in states
     (standing,) = board.standings()
     assert (standing.row.name, standing.row.verified, standing.submitter) == ("mine", True, "Ada")
