@@ -25,7 +25,7 @@
       ["human", "human's end"],
       ["robot", "robot's end"],
       ["target", now.goals ? "goal" : "human's intention"],
-      ["human-human", now.ghost.team ? "two simulated people, same goals" : "two people"],
+      ["human-human", now.ghost.team ? "two simulated people, same goals" : "a second human in the robot's place"],
     ];
     const added = now.drawn.filter((each) => each.where !== "place");
     for (const each of added) {
@@ -64,7 +64,7 @@
         name: "error",
         title: `${now.error.scored ? "Error" : "Height difference"}: ${now.error.words} [mm]`,
         summary: `${now.drawn.length ? "Error" : "Height difference"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
-        keys: [["robot", "with the robot"], ["human-human", now.ghost.team ? "two simulated people" : "two people"]],
+        keys: [["robot", "with the robot"], ["human-human", now.ghost.team ? "two simulated people" : "with a second human"]],
         low: -reach,
         high: reach,
         height: 150,
