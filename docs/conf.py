@@ -46,6 +46,7 @@ nitpick_ignore_regex = [
 ]
 # Parts of others, without pages.
 nitpick_ignore = [
+    ("py:func", "felt_action"),
     ("py:class", "colift.benchmark.episode.bodies.Bodies"),
     ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),
