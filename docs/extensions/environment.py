@@ -101,13 +101,13 @@ class Senses(SphinxDirective):
         task = make_task(self.arguments[0])
         every = (*SIGHT, *(TOUCH if task.touch else ()), *task.senses)
         rows = [
-            (f"{place}", f"`{each.name.upper()}`", each.meaning, f"{each.noise:g}")
+            (f"{place} `{each.name.upper()}`", each.meaning, f"{each.noise:g}")
             for place, each in enumerate(every)
         ]
         most = action_limit(CONTROL_PERIOD)
         change = f"change of the hand's command [m], within {_range(-most, most)}"
-        head = ("Observation", "Name", "Meaning", "Noise")
-        return self.parse_text_to_nodes(table(head, [*rows, ("**Action**", "", change, "")]))
+        head = ("Observation", "Meaning", "Noise")
+        return self.parse_text_to_nodes(table(head, [*rows, ("**Action**", change, "")]))
 
 
 class Arguments(SphinxDirective):

@@ -42,10 +42,10 @@ class Figure(SphinxRole):
 
 
 class ResultTable(SphinxDirective):
-    """The output of a registered figure: its command, its tables, and the words beside them.
+    """The output of a registered figure: its tables, and the words beside them.
 
-    ``:start-at:`` is a text in the first line of the part that is shown, ``:end-before:`` one in
-    the first line after it.
+    The first part of an output on a page begins with its command. ``:start-at:`` is a text in the
+    first line of the part that is shown, ``:end-before:`` one in the first line after it.
     """
 
     required_arguments = 1
@@ -65,7 +65,9 @@ class ResultTable(SphinxDirective):
             parts = list(read_output(self._shown(path.read_text(encoding="utf-8"))))
         except (KeyError, OSError, ValueError) as error:
             raise self.severe(f"no table of {name}: {error!r}") from error
-        found: list[nodes.Node] = [_command(command)]
+        shown = self.env.temp_data.setdefault("colift_results", set())
+        found: list[nodes.Node] = [] if name in shown else [_command(command)]
+        shown.add(name)
         for place, part in enumerate(parts):
             following = parts[place + 1] if place + 1 < len(parts) else ""
             if isinstance(part, PrintedTable):
@@ -112,16 +114,27 @@ def _table(printed: PrintedTable, title: str) -> nodes.table:
         for cells in rows:
             row = nodes.row()
             for text, side in zip(cells, sides, strict=True):
-                words = re.sub(" {2,}", " \N{MIDDLE DOT} ", text)
-                row += nodes.entry("", nodes.paragraph("", words), classes=[side])
+                row += nodes.entry("", nodes.paragraph("", _words(text)), classes=[side])
             part += row
         group += part
     caption = [nodes.title("", title)] if title else []
     return nodes.table("", *caption, group, classes=["printed"])
 
 
+def _words(text: str) -> str:
+    """Return the words of a cell: numbers apart, and a name that folds after its commas."""
+    apart = re.sub(" {2,}", " \N{MIDDLE DOT} ", text)
+    return re.sub(r"(?<=\w),(?=\w)", ",\N{ZERO WIDTH SPACE}", apart)
+
+
 def mark(app: Sphinx, doctree: nodes.document) -> None:
-    """Mark the outputs within a block whose tables fit the page: lines of a table are indented."""
+    """Mark the outputs within a block whose tables fit the page: lines of a table are indented.
+
+    A table loses the name that its title has given it: the theme would repeat it around the table.
+    """
+    for table in doctree.findall(nodes.table):
+        if "printed" in table["classes"]:
+            table["ids"] = []
     for block in doctree.findall(nodes.literal_block):
         lines = block.astext().splitlines()
         if "source" in block and all(len(line) <= WIDTH for line in lines if line[:1] == " "):
