@@ -24,6 +24,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "array_types",
     "attributes",
+    "catalogue",
     "commands",
     "environment",
     "fields",
@@ -48,6 +49,7 @@ nitpick_ignore_regex = [
 ]
 # Parts of others, without pages.
 nitpick_ignore = [
+    ("py:func", "felt_action"),
     ("py:class", "colift.benchmark.episode.bodies.Bodies"),
     ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),

@@ -24,7 +24,7 @@ STYLE: Final = "replay.css"
 
 KEYS: Final = (
     "Keys: space plays and pauses; the arrows move by one decision of the robot, with shift by a "
-    "second; comma and full stop move by a frame; G shows or hides the human-human baseline."
+    "second; comma and full stop move by a frame; G shows or hides the second of two people."
 )
 """Use of the player by keyboard."""
 

@@ -1,5 +1,5 @@
 "use strict";
-// The lift from the side: robot, table, person, and the human-human baseline as a ghost.
+// The lift from the side: robot, table, person, and the second of two people as a ghost.
 // Lengths are in m; x goes from the robot to the human, z upwards (see replays/geometry.py).
 (function () {
   const VIEW = { left: -0.66, right: 1.72, top: 0.93, bottom: -0.95 };

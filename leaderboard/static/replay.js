@@ -2,7 +2,7 @@
 // The replay player: it fills every element with data-replay="ID", where ID is that of a JSON script
 // {"geometry": ..., "replays": [...]} (see replays/geometry.py and replays/replay.py).
 // Keys: space plays and pauses, arrows move by a step (with shift by a second), Home and End,
-// comma and full stop move by a frame, G shows or hides the human-human baseline.
+// comma and full stop move by a frame, G shows or hides the second of two people.
 (function () {
   const SPEEDS = [0.25, 0.5, 1, 2, 4];
 
