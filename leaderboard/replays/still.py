@@ -41,7 +41,7 @@ def _png(partner: str, human: float, robot: float, places: tuple[float, ...]) ->
     with contextlib.closing(Scene(partner, ball=ball)) as scene:
         scene.pose(human, robot)
         if ball:
-            scene.roll(*places)
+            scene.table.roll(*places)
         picture = Image.fromarray(scene.picture(*SIZE))
     file = io.BytesIO()
     picture.save(file, "PNG", optimize=True)
