@@ -50,6 +50,8 @@ nitpick_ignore_regex = [
 # Parts of others, without pages.
 nitpick_ignore = [
     ("py:func", "felt_action"),
+    ("py:class", "colift.benchmark.comparison.compare.Comparison"),
+    ("py:class", "colift.benchmark.comparison.ranking.RankedPolicy"),
     ("py:class", "colift.benchmark.episode.bodies.Bodies"),
     ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),

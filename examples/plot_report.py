@@ -21,7 +21,7 @@ evaluation
 # Its reasons: the worst lifts and moments, strengths and weaknesses, beside two people. For a
 # result bundle of ``colift run --out``, ``colift.load(FOLDER)`` returns the evaluation.
 
-colift.inspect(evaluation)
+colift.inspect(evaluation, worst=1)
 
 # %%
 # A comparison takes policies by name, objects, evaluations and the folders of result bundles. What
