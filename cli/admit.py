@@ -79,6 +79,8 @@ def admit_suite(
 
     Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
     the person. Exit code 1 if the first is not shown, or is shown for the control.
+
+    Example: colift admit agree-v1 --people 4
     """
     chosen = chosen_suite(suite, None, None, None)
     if tune_policies:

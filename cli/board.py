@@ -40,7 +40,10 @@ def board(
         ),
     ] = None,
 ) -> None:
-    """Print a board's table: ranks, RMSE with its interval, and the human-human baseline."""
+    """Print a board's table: ranks, RMSE with its interval, and two people.
+
+    Example: colift board --board board
+    """
     check_exclusive(json=as_json, site=site, backup=backup, restore=from_backup)
     if from_backup is not None:
         _report(restore(from_backup, board), f"restored {from_backup} to {board}")

@@ -25,7 +25,10 @@ def calibrate(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Fit lift heights, process noise and the human partner's lag to the paper's results."""
+    """Fit lift heights, process noise and the human partner's lag to the paper's results.
+
+    Example: colift calibrate --out calibration.json
+    """
     check_new_file(out)
     with workers("calibrating", episodes(), jobs) as (pool, progress):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):

@@ -60,7 +60,10 @@ def measure_channels(
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Measure policies with and without a network that delays and loses messages."""
+    """Measure policies with and without a network that delays and loses messages.
+
+    Example: colift channels blend anticipate --channel satellite
+    """
     episodes = chosen_suite(suite, seeds, recordings, behaviour)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}

@@ -199,11 +199,14 @@ def _plain(command: Any) -> None:
     """Let the help of a command be plain text without types, whose paragraphs the terminal wraps.
 
     Rich would take longer to import than the help to print, and draw boxes into files. Names of
-    arguments show what they are; Typer would print ``<str>`` beside them.
+    arguments show what they are; Typer would print ``<str>`` beside them. The last paragraph,
+    ``Example: colift run blend``, becomes the epilog: the command line alone.
     """
     command.rich_markup_mode = None
-    paragraphs = inspect.cleandoc(command.help or "").split("\n\n")
-    command.help = "\n\n".join(" ".join(each.split()) for each in paragraphs)
+    words, _, example = inspect.cleandoc(command.help or "").partition("\n\nExample: ")
+    command.help = "\n\n".join(" ".join(each.split()) for each in words.split("\n\n"))
+    command.epilog = example
+    command.format_epilog = lambda ctx, formatter: _show_example(formatter, example)
     for parameter in command.params:
         if parameter.param_type_name == "argument":
             parameter.display_type_rich = lambda ctx: ""
@@ -212,6 +215,13 @@ def _plain(command: Any) -> None:
         for each in inner.values():
             _plain(each)
         command.format_commands = lambda ctx, formatter: _list(formatter, "Commands", inner)
+
+
+def _show_example(formatter: Any, example: str) -> None:
+    """Write the section of a command's example, if it has one; its line is not wrapped."""
+    if example:
+        with formatter.section("Example"):
+            formatter.write_text(f"\b\n{example}")
 
 
 def _list(formatter: Any, title: str, commands: Mapping[str, Any]) -> None:

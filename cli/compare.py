@@ -87,7 +87,10 @@ def compare_policies(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
+    """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour.
+
+    Example: colift compare copy blend anticipate --suite quick-v1
+    """
     named = policies or []
     bundles = _stored(named)
     if bundles and not (suite or seeds or recordings or behaviour or robot):

@@ -78,6 +78,8 @@ def export_lifts(
 
     A result bundle has no observations: each lift is replayed, and exported only if its states are
     equal to the bit.
+
+    Example: colift export bundle --to minari --out minari
     """
     if (bundle is None) == (fixed is None):
         raise InputError("name either a result bundle, or a fixed set by --set")

@@ -30,7 +30,10 @@ def paper(
     trials: Annotated[int, typer.Option(metavar="N", help="Learning trials.", min=1)] = 60,
     as_json: AsJson = False,
 ) -> None:
-    """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values."""
+    """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values.
+
+    Example: colift paper --seeds 4000:4010 --trials 20 --out paper
+    """
     # The report needs matplotlib, which is slow to load.
     from colift.benchmark.paper.evidence import Effort, collect_evidence, lift_count
     from colift.benchmark.paper.report import claims_json, make_report, write_report

@@ -50,6 +50,8 @@ def practice(
 
     Each policy is saved when it is finished: the same command continues after an interruption. The
     references are played once, and again with --fresh.
+
+    Example: colift practice --suite robust-v1 --out practice
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")

@@ -51,7 +51,10 @@ def references(
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Compare the best policies with the references on drawn subjects, and test their claims.
+
+    Example: colift references --people 4 --each 1
+    """
     suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     beside = suite_references(suite)
@@ -100,7 +103,10 @@ def ablate_policies(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Measure the error of anticipate without each of its parts, on drawn subjects.
+
+    Example: colift ablate --people 4 --each 1
+    """
     suites = [held_out_suite(people, each)]
     if recordings is not None:
         suites.append(recorded_suite(recordings))
@@ -156,7 +162,10 @@ def sweep_rates(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Measure the best policies at other latencies and control periods, on drawn subjects.
+
+    Example: colift sweep --people 4 --each 1 --out sweep.png
+    """
     if out is not None and out.suffix != ".png":
         raise InputError(f"--out must end in .png, got {out}")
     check_output(out)

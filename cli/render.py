@@ -68,6 +68,8 @@ def render_episode(
     """Draw a lift from the side, with the heights of both ends over time.
 
     Exit code 1, and no file, if the policy fails.
+
+    Example: colift render blend --behaviour pause --out lift.png
     """
     _check(out)
     if seed < 0:

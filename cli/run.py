@@ -53,6 +53,8 @@ def run(
     """Evaluate a policy on a suite, and compare it with two people.
 
     With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
+
+    Example: colift run blend --suite quick-v1 --out bundle
     """
     # The engine takes a second to import: not for a help text or a completion.
     from colift.cli.evaluation import Bundle, evaluate

@@ -29,7 +29,10 @@ def begin(
     ] = None,
     own: Annotated[bool, typer.Option(help="Queue colift's own policies, for comparison.")] = True,
 ) -> None:
-    """Begin a season with a new secret; earlier rows stay in their own table."""
+    """Begin a season with a new secret; earlier rows stay in their own table.
+
+    Example: colift season begin autumn --suite agree-v1 --board board
+    """
     with opened_board(board, new=True) as opened:
         season = opened.new_season(name, suite)
         print(f"season {name} on {season.suite.name} takes submissions from now on")
@@ -43,7 +46,10 @@ def begin(
 
 @app.command()
 def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None) -> None:
-    """Play the references on a season's hidden lifts: the board shows them beside the rows."""
+    """Play the references on a season's hidden lifts: the board shows them beside the rows.
+
+    Example: colift season references autumn --board board
+    """
     with opened_board(board) as opened:
         season = opened.season_of(name)
         secrets = opened.store.secrets(name)
@@ -62,7 +68,10 @@ def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None)
 
 @app.command()
 def reveal(name: NewSeason, why: Why = "the season is over", board: ExistingBoard = BOARD) -> None:
-    """Publish the secret of a finished season: anyone can then play its hidden lifts."""
+    """Publish the secret of a finished season: anyone can then play its hidden lifts.
+
+    Example: colift season reveal autumn --board board
+    """
     with opened_board(board) as opened:
         opened.reveal(name, LOCAL, why)
         print(f"the secret of season {name}: {opened.season_info(name).revealed}")

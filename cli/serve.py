@@ -79,7 +79,10 @@ def serve_board(
         ),
     ] = 0,
 ) -> None:
-    """Serve a board on the web: its pages, its JSON interface, and uploads."""
+    """Serve a board on the web: its pages, its JSON interface, and uploads.
+
+    Example: colift serve --board board
+    """
     try:
         from colift.leaderboard.service.app import create_app
         from colift.leaderboard.service.documentation import Documentation

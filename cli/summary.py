@@ -29,6 +29,8 @@ def summarise_bundles(
     """Print the results of policies on several suites: on each, the error relative to two people.
 
     There is no mean over suites, since they measure different things.
+
+    Example: colift summary bundle bundle-of-robust-v1
     """
     found: dict[tuple[str, str], Stored] = {}
     for folder in bundles:

@@ -17,14 +17,20 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 
 @app.command()
 def add(name: Submitter, board: BoardFolder = BOARD) -> None:
-    """Create a submitter's token and print it; it cannot be shown again."""
+    """Create a submitter's token and print it; it cannot be shown again.
+
+    Example: colift token add ada --board board
+    """
     with opened_board(board, new=True) as opened:
         print(Tokens(opened).add(name))
 
 
 @app.command()
 def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
-    """Revoke a submitter's token, effective at once."""
+    """Revoke a submitter's token, effective at once.
+
+    Example: colift token revoke ada --board board
+    """
     with opened_board(board) as opened:
         Tokens(opened).revoke(name)
     print(f"the token of {name} is revoked")
@@ -32,7 +38,10 @@ def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
 
 @app.command("list")
 def list_tokens(board: ExistingBoard = BOARD) -> None:
-    """List the submitters, with the dates of their tokens."""
+    """List the submitters, with the dates of their tokens.
+
+    Example: colift token list --board board
+    """
     with opened_board(board, open_to_read) as opened:
         found = Tokens(opened).all()
     rows = (

@@ -106,7 +106,7 @@ add(
     "elite",
     "lifts",
     meaning="Train a small network by the cross-entropy method, in the engine, in minutes, with "
-    "NumPy.",
+    "NumPy.\n\nExample: colift train cem --out trained",
     total=lambda settings: settings.generations * settings.lifts,
     jax=False,
 )
@@ -116,7 +116,7 @@ add(
     ApgSettings,
     *ApgSettings.__dataclass_fields__,
     meaning="Train a recurrent network by gradients through whole lifts of the twin (extra: "
-    "train).",
+    "train).\n\nExample: colift train apg --task ball --out trained",
     task={"help": "Task: level, or one that is stated by rules."},
 )
 

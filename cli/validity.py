@@ -70,7 +70,10 @@ def validity(
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Judge how well suites predict the order and the size of scores on real lifts."""
+    """Judge how well suites predict the order and the size of scores on real lifts.
+
+    Example: colift validity lifts.csv
+    """
     sources = sources_of(data)
     for real in sources:
         report_left_out(real.name, real.left_out)

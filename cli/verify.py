@@ -61,6 +61,8 @@ def verify_bundle(
 
     Nothing in the bundle is trusted, and no policy is run. Exit code 0: verified; 1: refused, with
     the file, the lift and the first step that differ.
+
+    Example: colift verify bundle
     """
     count = checked_jobs(jobs)
     if rescore is not None:

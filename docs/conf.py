@@ -7,6 +7,8 @@ from pathlib import Path
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "extensions"))
 
+from board_look import ICON, read_variables  # noqa: E402  # It stands beside the extensions.
+
 project = "colift"
 author = "The colift developers"
 project_copyright = author
@@ -87,8 +89,15 @@ sphinx_gallery_conf = {
 
 html_math_renderer = "formulas"
 html_theme = "furo"
-html_title = "colift"
+html_theme_options = {
+    "light_css_variables": read_variables(0),
+    "dark_css_variables": read_variables(1),
+}
+html_title = f"colift {version}"
+html_logo = html_favicon = str(ICON)
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_js_files = [("site.js", {"defer": "defer"})]
+html_search_scorer = "static/scorer.js"
 html_copy_source = False
 html_show_sphinx = False

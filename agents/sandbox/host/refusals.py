@@ -23,7 +23,7 @@ _REFUSALS: Final = (
 )
 """Errors of the kernel: a limit of namespaces, a security module, a setting or a filter."""
 
-GUIDE: Final = "see docs/guides/submissions.md"
+GUIDE: Final = "see docs/guides/sandbox.md"
 
 
 def in_words(reason: str) -> str:

@@ -34,7 +34,7 @@ FORBIDDEN = "--security-opt seccomp=unconfined"
 def test_a_refusal_of_namespaces_is_one_sentence_with_its_cure(reason, cure):
     told = in_words(reason)
     assert cure in told
-    assert "docs/guides/submissions.md" in told
+    assert "docs/guides/sandbox.md" in told
     assert "Errno" not in told
     assert len(told) < 250
 

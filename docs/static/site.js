@@ -1,0 +1,15 @@
+// What scrolls can be reached with the keyboard, and takes no place in the order of Tab if it does not scroll.
+const BOXES = "pre, .table-wrapper, .drawing, div.formula, div.output";
+
+function mark(box) {
+  const scrolls = box.scrollWidth > box.clientWidth || box.scrollHeight > box.clientHeight + 1;
+  if (scrolls) box.tabIndex = 0;
+  else box.removeAttribute("tabindex");
+}
+
+const sizes = new ResizeObserver((seen) => seen.forEach(({ target }) => mark(target)));
+for (const box of document.querySelectorAll(BOXES)) sizes.observe(box);
+
+// The theme has two landmarks of one kind without names.
+document.querySelector(".sidebar-drawer")?.setAttribute("aria-label", "Site");
+document.querySelector(".toc-drawer")?.setAttribute("aria-label", "Page");
