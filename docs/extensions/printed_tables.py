@@ -104,7 +104,10 @@ def _table(head: Sequence[str], body: Sequence[str]) -> PrintedTable:
     used = "".join(" " if set(column) == {" "} else "x" for column in zip(*lines, strict=True))
     starts = [0, *(gap.end() for gap in GAP.finditer(used))]
     ends = [*starts[1:], width]
-    cells = [[_cell(line[a:b]) for a, b in zip(starts, ends, strict=True)] for line in lines]
+    cells = [[line[a:b].strip() for a, b in zip(starts, ends, strict=True)] for line in lines]
+    for line, row in zip(lines, cells, strict=True):
+        if line.startswith(DEEPER) and not NUMBER.fullmatch(row[0]):
+            row[0] = INDENT + row[0]
     names = [" ".join(filter(None, column)) for column in zip(*cells[: len(head)], strict=True)]
     rows: list[list[str]] = []
     for row in cells[len(head) :]:
@@ -119,12 +122,6 @@ def _table(head: Sequence[str], body: Sequence[str]) -> PrintedTable:
             for row in (names, *rows):
                 row[place - 1 : place + 1] = [_joined(row[place - 1], row[place])]
     return PrintedTable(head=tuple(names), rows=tuple(map(tuple, rows)))
-
-
-def _cell(text: str) -> str:
-    """Return the words of a cell; those of a name that is set in keep their place."""
-    words = text.strip()
-    return words if NUMBER.fullmatch(words) or not text.startswith(DEEPER) else INDENT + words
 
 
 def _joined(first: str, second: str) -> str:
