@@ -83,6 +83,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "generated/gallery",
     "within_subsection_order": "gallery_order.SimpleFirst",
     "filename_pattern": "/plot_",
+    "ignore_pattern": r"examples/\w+/",  # Folders of scripts that are no part of the gallery.
     "abort_on_example_error": True,
     "download_all_examples": False,
     "show_memory": False,
@@ -101,6 +102,6 @@ html_logo = html_favicon = str(ICON)
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_js_files = [("site.js", {"defer": "defer"})]
-html_search_scorer = "static/scorer.js"
+html_search_scorer = str(DOCS / "static" / "scorer.js")
 html_copy_source = False
 html_show_sphinx = False
