@@ -1,1 +1,1 @@
-"""The scatter picture of error against smoothness: one scene, as a figure for files or SVG of a page."""
+"""The scatter picture of error against smoothness: one scene, drawn for files or for pages."""
