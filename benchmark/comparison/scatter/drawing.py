@@ -1,4 +1,4 @@
-"""The look of the scatter picture, drawn with any pen: that of PNG or that of SVG."""
+"""The look of the scatter picture, drawn with any pen: that of files or that of pages."""
 
 from collections.abc import Sequence
 from typing import Final, Literal, Protocol

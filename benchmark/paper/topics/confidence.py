@@ -195,7 +195,7 @@ def pause_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
     figure, (upper, lower) = _panels(lift, [(still, resume)], "the human stands still", layout)
     lower.set_ylim(top=1.35)
     lower.set_yticks([0.0, 0.5, 1.0])
-    for step, word, side in ((onset, "begins to stop", "right"), (resume, "goes on", "left")):
+    for step, word, side in ((onset, "brakes", "right"), (resume, "goes on", "left")):
         upper.axvline(step, color=INK, lw=0.9, ls=DASHES)
         lower.axvline(step, color=INK, lw=0.9, ls=DASHES)
         lower.annotate(f" {word} ", (step, 1.05), ha=side, va="bottom", color=FAINT)
