@@ -39,7 +39,7 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
     task, behaviour, subject, control_period, latency
         As for :func:`.parallel_env`; by default behaviours and people are drawn.
     lifts, plans
-        Number of lifts from which the environment draws, and of their plans; see ``colift.twin.make``.
+        Number of lifts from which the environment draws, and of their plans (``colift.twin.make``).
 
     Raises
     ------
