@@ -83,7 +83,6 @@ sphinx_gallery_conf = {
     "gallery_dirs": "generated/gallery",
     "within_subsection_order": "gallery_order.SimpleFirst",
     "filename_pattern": "/plot_",
-    "ignore_pattern": r"examples/\w+/",  # Folders of scripts that are no part of the gallery.
     "abort_on_example_error": True,
     "download_all_examples": False,
     "show_memory": False,
