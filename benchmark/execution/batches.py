@@ -173,8 +173,11 @@ class Faults:
             raise EvaluatorFault(f"tried {ATTEMPTS} times: {error_text(error)}") from error
 
 
-MOST_WAITING: Final = 1100
-"""Largest number of batches that an executor has at a time: more than it has workers."""
+AHEAD: Final = 4
+"""Batches that an executor has at a time for each of its workers, done, in work or waiting."""
+
+UNKNOWN_WORKERS: Final = 256
+"""Workers of an executor that has no attribute ``workers``: rather too many than idle ones."""
 
 
 def run_batches(
@@ -187,7 +190,8 @@ def run_batches(
     batches
         The episodes to play.
     executor
-        Plays the batches; None plays them here, one after the other.
+        Plays the batches; None plays them here, one after the other. Its attribute ``workers``,
+        if it has one, is the number of batches that it plays at a time.
     faults
         Counts the failed attempts.
 
@@ -226,7 +230,8 @@ def _pooled(
     left = iter(batches)
     try:
         while True:
-            for batch in itertools.islice(left, MOST_WAITING - len(waiting)):
+            most = AHEAD * max(1, getattr(executor, "workers", UNKNOWN_WORKERS))
+            for batch in itertools.islice(left, max(0, most - len(waiting))):
                 waiting[_submitted(batch, executor)] = batch, 1
             if not waiting:
                 return

@@ -110,18 +110,23 @@ class Cluster(Executor):
         """Idle threads of the workers: all but one of each worker."""
         self._waiting: dict[str, tuple[Any, Future[Any]]] = {}
         self._large: dict[bytes, Any] = {}
-        self._workers: set[str] = set()
+        self._alive: set[str] = set()
         client.subscribe_topic("all", self._heard)
-        self._workers |= set(client.scheduler_info(n_workers=-1)["workers"])
+        self._alive |= set(client.scheduler_info(n_workers=-1)["workers"])
         self._lost, self._ended = threading.Event(), threading.Event()
         self._watch = threading.Thread(target=self._watch_scheduler, daemon=True)
         self._watch.start()
+
+    @property
+    def workers(self) -> int:
+        """Number of workers now: each plays one batch at a time."""
+        return len(self._alive)
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> Future[T]:
         """Schedule a call; its future raises an EvaluatorFault if the worker dies in it."""
         if self._lost.is_set() or self._client.status != "running":
             raise self._loss()
-        if not self._workers:
+        if not self._alive:
             self._wait_for_workers()
         data, large = parcel(fn, args, kwargs, self._sent)
         key = f"colift-{uuid.uuid4().hex}"
@@ -154,7 +159,7 @@ class Cluster(Executor):
         while not self._ended.wait(WATCH_SECONDS):
             if self._client.status != "running":
                 self._lost.set()
-            lonely = 0.0 if self._workers else lonely + WATCH_SECONDS
+            lonely = 0.0 if self._alive else lonely + WATCH_SECONDS
             if self._lost.is_set() or lonely > LONELY_SECONDS:
                 for key in list(self._waiting):
                     self._settle(key, error=self._loss())
@@ -197,10 +202,10 @@ class Cluster(Executor):
         """Handle an event of the scheduler."""
         _, message = event
         if message.get("action") == "add-worker":
-            self._workers.add(message["worker"])
+            self._alive.add(message["worker"])
         elif message.get("action") == "remove-worker":
             worker = message["worker"]
-            self._workers.discard(worker)
+            self._alive.discard(worker)
             for key in message["processing-tasks"]:
                 self._settle(key, error=EvaluatorFault(f"the worker {worker} died"))
 

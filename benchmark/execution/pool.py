@@ -71,6 +71,8 @@ class LocalPool(Executor):
     """
 
     def __init__(self, jobs: int) -> None:
+        self.workers: Final = jobs
+        """Number of processes."""
         self._threads = ThreadPoolExecutor(jobs)
         self._workers = [_Worker() for _ in range(jobs)]
         self._idle: queue.SimpleQueue[_Worker] = queue.SimpleQueue()

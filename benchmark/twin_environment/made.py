@@ -88,6 +88,14 @@ def drawing_of(
     return drawing
 
 
+def check_counts(lifts: int, plans: int | None) -> None:
+    """Raise an InputError if there are no lifts, or more plans than lifts."""
+    if lifts < 1:
+        raise InputError(f"lifts must be at least 1, got {lifts}")
+    if plans is not None and not 1 <= plans <= lifts:
+        raise InputError(f"plans must be 1 to {lifts}, the number of lifts, got {plans}")
+
+
 def drawn_pool(drawing: Drawing, lifts: int, seed: int, plans: int | None = None) -> LiftPool:
     """Return lifts of a source, which the seed draws; see :func:`make`.
 
@@ -96,11 +104,8 @@ def drawn_pool(drawing: Drawing, lifts: int, seed: int, plans: int | None = None
     InputError
         If there is none, or there are more plans than lifts.
     """
-    if lifts < 1:
-        raise InputError(f"lifts must be at least 1, got {lifts}")
+    check_counts(lifts, plans)
     own = lifts if plans is None else plans
-    if not 1 <= own <= lifts:
-        raise InputError(f"plans must be 1 to {lifts}, the number of lifts, got {plans}")
     rules = common_rules(drawing.scenarios)
     chosen = [drawing.lift(derive_seed(seed, f"lift {number}")) for number in range(own)]
     drawn = stack([draw_lift(scenario, each, rules) for scenario, each in chosen])

@@ -13,7 +13,7 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY
 from colift.benchmark.suites.catalogue import TASK
 from colift.benchmark.twin.task_twin import TaskTwin
 from colift.benchmark.twin_environment.environment import ADDED, ROBOT, State, TwinEnv
-from colift.benchmark.twin_environment.made import LIFTS, drawing_of, drawn_pool
+from colift.benchmark.twin_environment.made import LIFTS, check_counts, drawing_of, drawn_pool
 from gymnasium.spaces import Box
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
@@ -38,8 +38,8 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
         Number of lifts at once.
     task, behaviour, subject, control_period, latency
         As for :func:`.parallel_env`; by default behaviours and people are drawn.
-    lifts
-        Number of lifts from which the environment draws.
+    lifts, plans
+        Number of lifts from which the environment draws, and of their plans (``colift.twin.make``).
 
     Raises
     ------
@@ -61,12 +61,12 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
         control_period: float = CONTROL_PERIOD,
         latency: float = LATENCY,
         lifts: int = LIFTS,
+        plans: int | None = None,
     ) -> None:
         if num_envs < 1:
             raise InputError(f"num_envs must be at least 1, got {num_envs}")
-        if lifts < 1:
-            raise InputError(f"lifts must be at least 1, got {lifts}")
-        self.num_envs, self._lifts = num_envs, lifts
+        check_counts(lifts, plans)
+        self.num_envs, self._lifts, self._plans = num_envs, lifts, plans
         self._drawing = drawing_of(task, behaviour, subject, control_period, latency)
         self._twin = TaskTwin.of(self._drawing.scenarios)
         low, high = (bound.astype(np.float32) for bound in self._twin.task.robot_bounds())
@@ -92,7 +92,9 @@ class TwinVectorEnv(VectorEnv[Array, Array, Array]):
         if seed is not None or self._state is None:
             self._rng = np.random.default_rng(seed)
             seed = int(self._rng.integers(2**62))
-            self._env = TwinEnv(self._twin, drawn_pool(self._drawing, self._lifts, seed))
+            self._env = TwinEnv(
+                self._twin, drawn_pool(self._drawing, self._lifts, seed, self._plans)
+            )
             self._step = jax.jit(partial(_step, self._env))
         self._state = self._env.begun(jnp.asarray(self._lanes()))
         self._over = np.zeros(self.num_envs, bool)

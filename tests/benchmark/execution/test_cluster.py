@@ -212,7 +212,7 @@ def test_a_worker_without_colift_is_refused(bare_address):
 def test_idle_threads_are_counted_and_the_address_of_a_worker_is_refused(bare_address):
     with worker(bare_address, "--nthreads", "3"), dask_pool(bare_address) as connected:
         assert connected.idle_threads == 2
-        (address,) = connected._workers
+        (address,) = connected._alive
         with (
             pytest.raises(InputError, match="the address of a Dask Worker; name the"),
             dask_pool(address),

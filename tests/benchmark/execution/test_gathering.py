@@ -2,7 +2,8 @@
 
 import os
 import signal
-from concurrent.futures import ProcessPoolExecutor
+import time
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass, fields
 
@@ -10,7 +11,7 @@ import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle.table import table_row
-from colift.benchmark.execution.batches import Batch, Faults, batches, run_batches
+from colift.benchmark.execution.batches import AHEAD, Batch, Faults, batches, run_batches
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
@@ -153,3 +154,29 @@ def test_what_a_user_gave_wrong_is_not_tried_again():
     with process_pool(1) as pool, pytest.raises(InputError, match="another colift"):
         list(run_batches([refused], pool, faults))
     assert faults.count == 0
+
+
+def test_no_more_batches_wait_than_keep_the_workers_busy():
+    waiting = []
+
+    class Holding(Executor):
+        workers = 2
+
+        def submit(self, fn, /, *args, **kwargs):
+            waiting.append(Future())
+            return waiting[-1]
+
+    held = run_batches(
+        batches(PolicySpec(text="copy"), FOUR.with_seeds(0, 60)), Holding(), Faults()
+    )
+    with ThreadPoolExecutor(1) as thread:
+        first = thread.submit(next, held)
+        while len(waiting) < AHEAD * Holding.workers:
+            time.sleep(0.001)
+        waiting[0].set_result([(0, "a lift")])
+        assert first.result() == (0, "a lift")
+        second = thread.submit(next, held)
+        waiting[1].set_result([(1, "another")])
+        second.result()
+    assert len(waiting) == AHEAD * Holding.workers + 1
+    held.close()

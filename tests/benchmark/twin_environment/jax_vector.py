@@ -57,6 +57,21 @@ def test_a_lift_that_has_ended_begins_anew():
     assert env.observation_space.contains(view.astype(np.float32))
 
 
+def test_lifts_of_one_plan_differ_by_their_noise_alone():
+    env = make(num_envs=20, lifts=20, plans=1)
+    view, _ = env.reset(seed=3)
+    assert len(np.unique(view[:, 0])) > 1
+    over, steps = np.zeros(20, bool), []
+    for step in range(200):
+        _, _, _, ended, _ = env.step(np.zeros((20, 1), np.float32))
+        steps += [step] * int((ended & ~over).sum())
+        over |= ended
+        if over.all():
+            break
+    assert len(steps) == 20
+    assert len(set(steps)) == 1
+
+
 def test_dropping_never_earns():
     env = make(num_envs=2, lifts=1)
     env.reset(seed=2)
@@ -89,6 +104,7 @@ def test_the_same_seed_gives_the_same_lifts():
         ({"task": "hint"}, "unknown task 'hint'"),
         ({"num_envs": 0}, "num_envs must be at least 1, got 0"),
         ({"lifts": 0}, "lifts must be at least 1, got 0"),
+        ({"lifts": 5, "plans": 6}, "plans must be 1 to 5, the number of lifts, got 6"),
     ],
 )
 def test_settings_out_of_range_are_refused(settings, message):
