@@ -98,6 +98,6 @@ html_logo = html_favicon = str(ICON)
 html_static_path = ["static"]
 html_css_files = ["site.css"]
 html_js_files = [("site.js", {"defer": "defer"})]
-html_search_scorer = "static/scorer.js"
+html_search_scorer = str(DOCS / "static" / "scorer.js")
 html_copy_source = False
 html_show_sphinx = False

@@ -47,7 +47,8 @@ def test_the_largest_action_is_where_a_submitter_reads(page):
 def test_the_recipe_for_a_trained_net_plays_what_the_net_says(tmp_path):
     """The weights are of a net that is known: two linear layers, here evaluated by hand."""
     write_template(tmp_path / "mine")
-    shutil.copy(ROOT / "examples" / "networks" / "policy.py", tmp_path / "mine")
+    policy = ROOT / "examples" / "networks" / "numpy_policy.py"
+    shutil.copy(policy, tmp_path / "mine" / "policy.py")
     rng = np.random.default_rng(1)
     w0, b0 = rng.normal(0.0, 1.0, (8, 4)), rng.normal(0.0, 1.0, 8)
     w1, b1 = rng.normal(0.0, 0.01, (1, 8)), rng.normal(0.0, 0.01, 1)

@@ -1,4 +1,4 @@
-"""The weights of a PyTorch network of linear layers, for ``policy.py`` beside this file."""
+"""The weights of a PyTorch network of linear layers, for ``numpy_policy.py`` beside this file."""
 
 import numpy as np
 import torch
