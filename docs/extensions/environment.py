@@ -101,7 +101,7 @@ class Senses(SphinxDirective):
         task = make_task(self.arguments[0])
         every = (*SIGHT, *(TOUCH if task.touch else ()), *task.senses)
         rows = [
-            (f"{place} `{each.name.upper()}`", each.meaning, f"{each.noise:g}")
+            (f"{place}&nbsp;`{each.name.upper()}`", each.meaning, f"{each.noise:g}")
             for place, each in enumerate(every)
         ]
         most = action_limit(CONTROL_PERIOD)

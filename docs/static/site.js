@@ -10,6 +10,7 @@ function mark(box) {
 const sizes = new ResizeObserver((seen) => seen.forEach(({ target }) => mark(target)));
 for (const box of document.querySelectorAll(BOXES)) sizes.observe(box);
 
-// The theme has two landmarks of one kind without names.
+// The theme has two landmarks of one kind without names, and Sphinx headings of lists without a level.
 document.querySelector(".sidebar-drawer")?.setAttribute("aria-label", "Site");
 document.querySelector(".toc-drawer")?.setAttribute("aria-label", "Page");
+for (const heading of document.querySelectorAll(".caption[role=heading]")) heading.ariaLevel = "2";

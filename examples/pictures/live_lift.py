@@ -28,7 +28,7 @@ def lift(page: Page, partner: str) -> None:
     page.keyboard.press("Space")
     page.locator(".play-goal:not(.none)").wait_for(state="attached")
     page.keyboard.down("ArrowUp")
-    page.wait_for_timeout(900)
+    page.wait_for_timeout(800)
 
 
 @contextmanager
