@@ -5,7 +5,7 @@ from pathlib import Path
 import colift
 import numpy as np
 from matplotlib import pyplot as plt
-from policy import Policy
+from gains import Policy
 
 BEHAVIOURS = "smooth", "pause", "jerky", "changing_goal"
 GENERATIONS, CANDIDATES, ELITE, LIFTS = 5, 10, 3, 4
