@@ -45,6 +45,8 @@ def pairs(
     """Measure how recorded pairs lift together: RMSE, lag, gain and tilt, with intervals.
 
     Beside them stand the simulated two people, measured alike on the same movements.
+
+    Example: colift pairs pairs.csv --length 1.05 --out pairs
     """
     if out is not None:
         try_folder("--out", out)

@@ -59,8 +59,8 @@ def write_site(board: Board, folder: Path, name: str = NAME) -> None:
 def _write(board: Board, folder: Path, name: str) -> None:
     (folder / "data").mkdir(parents=True)
     (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
-    for package, name in STATIC:
-        with as_file(files(package) / name) as static:
+    for package, inside in STATIC:
+        with as_file(files(package) / inside) as static:
             shutil.copytree(static, folder / "static", dirs_exist_ok=True)
     seasons = ordered_seasons(board)
     links, visit = Links(current=seasons[0].name), Visit(board=board, name=name)

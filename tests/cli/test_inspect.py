@@ -42,7 +42,7 @@ def name(row):
 
 
 def test_one_command_leads_from_a_bundle_to_its_three_worst_moments(colift, bundle):
-    done = colift("inspect", "mine", "--jobs", "1")
+    done = colift("inspect", "mine", "--jobs", "1", COLUMNS="200")
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     for row in rows(bundle)[:3]:
