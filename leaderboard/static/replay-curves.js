@@ -203,9 +203,9 @@
     return item;
   }
 
-  // Words, and shorter ones for a line in which they do not fit.
+  // Words, and shorter ones, if there are any, for a line in which they do not fit.
   function wording(words, brief) {
-    return brief ? [element("span", { class: "long" }, words), element("span", { class: "brief" }, brief)] : [words];
+    return brief && brief !== words ? [element("span", { class: "long" }, words), element("span", { class: "brief" }, brief)] : [words];
   }
 
   window.coliftReplay.Chart = Chart;

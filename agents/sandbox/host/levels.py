@@ -55,6 +55,9 @@ _SECONDS: Final = 60.0
 _SHARED: Final = 1 << 20
 """Size of the file that the probe shares with others: it touches only the beginning [bytes]."""
 
+_SHORT: Final = "/tmp"
+"""Folder of the probe's socket, whose path has at most 107 characters wherever others lie."""
+
 _PROBE: Final = Assignment("colift.agents.sandbox.guest.probe:Probe")
 
 _SECRETS: Final = ("humans/__init__.py", "../benchmark/__init__.py")
@@ -167,6 +170,7 @@ def holes(name: str) -> list[str]:
     with (
         tempfile.TemporaryDirectory(prefix="colift-probe-") as directory,
         tempfile.TemporaryDirectory(prefix="colift-probe-") as seen,
+        tempfile.TemporaryDirectory(prefix="colift-probe-", dir=_SHORT) as near,
         socket.create_server(("127.0.0.1", 0)) as listening,
         socket.socket(socket.AF_UNIX) as local,
         subprocess.Popen(
@@ -180,7 +184,7 @@ def holes(name: str) -> list[str]:
             os.fsync(file.fileno())
             os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
         os.utime(shared, (1, 2))  # Older than written: the next access is recorded.
-        local.bind(str(Path(directory, "socket")))
+        local.bind(str(Path(near, "socket")))
         local.listen()
         files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))
         secrets = {
