@@ -7,7 +7,7 @@ from typing import Final
 from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.drawn import error_words, is_scored
 from colift.benchmark.episode.metric import LEADING, drawn_series, on_boards
-from colift.benchmark.inspection.inspection import Inspection, WorstLift
+from colift.benchmark.inspection.findings import Findings, WorstLift
 from colift.benchmark.rendering.formats import number, signed, words
 from colift.benchmark.results.strata import StratumScore, vs_human_mean
 
@@ -18,12 +18,12 @@ PARTS: Final = (
 """Meaning of the columns of strengths and weaknesses."""
 
 
-def shown(found: Inspection) -> str:
+def shown(found: Findings) -> str:
     """Return what pictures show: the error that is scored, or else the tilt of the table."""
     return "error" if is_scored(drawn_series(found.run.suite.metrics)) else "tilt"
 
 
-def title(found: Inspection) -> str:
+def title(found: Findings) -> str:
     """Return policy and suite, with the channel if there was one."""
     run = found.run
     over = "" if run.channel is None else f", over the channel {channel_name(run.channel)}"
@@ -31,7 +31,7 @@ def title(found: Inspection) -> str:
     return f"{run.policy} on {run.suite.name}{over}{part}"
 
 
-def provenance(found: Inspection) -> str:
+def provenance(found: Findings) -> str:
     """Return the origin of the numbers, in sentences."""
     digest = f"Suite digest {found.run.suite.digest}."
     if found.folder is None:
@@ -42,7 +42,7 @@ def provenance(found: Inspection) -> str:
     )
 
 
-def worst_caption(found: Inspection) -> str:
+def worst_caption(found: Findings) -> str:
     """Return the meaning of the table of worst lifts."""
     metrics, noun = found.run.suite.metrics, shown(found)
     scored = "" if noun == "error" else f" RMSE: {metrics[LEADING].meaning}."
@@ -54,7 +54,7 @@ def worst_caption(found: Inspection) -> str:
     )
 
 
-def phases_caption(found: Inspection) -> str:
+def phases_caption(found: Findings) -> str:
     """Return the meaning of the table of phases."""
     noun = shown(found)
     return (
@@ -64,7 +64,7 @@ def phases_caption(found: Inspection) -> str:
     )
 
 
-def verdict(found: Inspection) -> str:
+def verdict(found: Findings) -> str:
     """Return the best and the worst behaviour and person, as far as there are several."""
     strata = found.results.strata
     sentences = (
@@ -91,7 +91,7 @@ def _extremes(kind: str, named: Sequence[tuple[str, StratumScore]]) -> str:
     )
 
 
-def moment_words(found: Inspection, worst: WorstLift) -> str:
+def moment_words(found: Findings, worst: WorstLift) -> str:
     """Return the worst moment of a lift as sentences, with the distances that are scored."""
     moment, failure = worst.moment, worst.episode.failure
     if moment is None:
@@ -104,7 +104,7 @@ def moment_words(found: Inspection, worst: WorstLift) -> str:
     ).rstrip()
 
 
-def distances(found: Inspection, worst: WorstLift) -> str:
+def distances(found: Findings, worst: WorstLift) -> str:
     """Return the distances that a task scores instead of the shown error; empty if it has none."""
     if shown(found) == "error":
         return ""

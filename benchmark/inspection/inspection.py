@@ -3,7 +3,6 @@
 import html
 from collections.abc import Callable, Container, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
@@ -11,66 +10,36 @@ from colift.base.errors import InputError
 from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.writing import indices
 from colift.benchmark.episode.loop import Episode
-from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run, finished
 from colift.benchmark.inspection import WORST
+from colift.benchmark.inspection.findings import Findings, WorstLift
 from colift.benchmark.inspection.moments import (
     Events,
-    Moment,
     error_of,
     events_of,
     worst_moment,
 )
-from colift.benchmark.inspection.phases import PhaseError, PhaseScore, phase_errors, phase_scores
+from colift.benchmark.inspection.page import inspection_page, pictured_lifts
+from colift.benchmark.inspection.phases import PhaseError, phase_errors, phase_scores
+from colift.benchmark.inspection.text import inspection_text
 from colift.benchmark.results.baselines import HUMAN_HUMAN, partner_spec
 from colift.benchmark.results.lifts import (
-    ScoredLift,
     failures_by_reason,
     scored_lifts,
     worst_first,
 )
-from colift.benchmark.results.parts import PartScore, part_scores
+from colift.benchmark.results.parts import part_scores
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
+from colift.benchmark.tables.html import html_of
 from colift.benchmark.tables.printing import text_of
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class WorstLift:
-    """A lift with a large error."""
-
-    lift: ScoredLift
-    episode: Episode
-    scenario: Scenario
-    human_human: Episode
-    """The same lift with two people."""
-    moment: Moment | None
-    """Its worst moment; None if it ended before its first frame."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Inspection:
+class Inspection(Findings):
     """The reasons of a score, beside two people on the same lifts."""
 
-    run: Run
-    results: Results
-    worst: tuple[WorstLift, ...]
-    """The lifts with the largest RMSE, the largest first."""
-    parts: tuple[PartScore, ...]
-    """All lifts, then each behaviour."""
-    phases: tuple[PhaseScore, ...]
-    """The phases of the person's plans, the largest share of the error first; none of live lifts,
-    whose plans nobody knows."""
-    failures: tuple[tuple[str, list[ScoredLift]], ...]
-    """The failed lifts by the reason, the most frequent reason first."""
-    folder: Path | None
-    """The bundle that claims the scores; None of a run of this process."""
-
-    # Tables and page are made of inspections: their modules import this one.
     def __str__(self) -> str:
         """Return the tables and the lines between them."""
-        from colift.benchmark.inspection.text import inspection_text
-
         return text_of(*inspection_text(self))
 
     def __repr__(self) -> str:
@@ -81,10 +50,6 @@ class Inspection:
 
     def _repr_html_(self) -> str:
         """Return the view of a notebook: pictures of the worst lifts, and the text."""
-        from colift.benchmark.inspection.page import pictured_lifts
-        from colift.benchmark.inspection.text import inspection_text
-        from colift.benchmark.tables.html import html_of
-
         pictures = "".join(
             f'<figure style="margin: 0 0 1em"><img style="max-width: 100%" src="{each.source}" '
             f'alt="{html.escape(each.lift.name)}"><figcaption>{html.escape(each.moment)}'
@@ -96,8 +61,6 @@ class Inspection:
 
     def page(self) -> str:
         """Return the same as an HTML file that needs nothing else."""
-        from colift.benchmark.inspection.page import inspection_page
-
         return inspection_page(self)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colift.benchmark.inspection import captions
-from colift.benchmark.inspection.inspection import Inspection, WorstLift
+from colift.benchmark.inspection.findings import Findings, WorstLift
 from colift.benchmark.inspection.phases import PhaseScore
 from colift.benchmark.rendering.axis import make_axis
 from colift.benchmark.rendering.film import still_picture
@@ -34,7 +34,7 @@ class PicturedLift:
 
 
 def pictured_lifts(
-    found: Inspection, drawn: Callable[[int], None] = lambda pictures: None
+    found: Findings, drawn: Callable[[int], None] = lambda pictures: None
 ) -> Iterator[PicturedLift]:
     """Yield the worst lifts with their pictures; ``drawn`` is called with 1 after each."""
     for each in found.worst:
@@ -43,7 +43,7 @@ def pictured_lifts(
         drawn(1)
 
 
-def inspection_page(found: Inspection, drawn: Callable[[int], None] = lambda pictures: None) -> str:
+def inspection_page(found: Findings, drawn: Callable[[int], None] = lambda pictures: None) -> str:
     """Return the page: the worst lifts with pictures, strengths and weaknesses, phases, failures.
 
     Parameters

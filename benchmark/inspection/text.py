@@ -14,7 +14,7 @@ from colift.benchmark.inspection.captions import (
     verdict,
     worst_caption,
 )
-from colift.benchmark.inspection.inspection import Inspection, WorstLift
+from colift.benchmark.inspection.findings import Findings, WorstLift
 from colift.benchmark.rendering.formats import words
 from colift.benchmark.results.headline import headline
 from colift.benchmark.results.parts import PartScore
@@ -26,7 +26,7 @@ MOST_REASONS: Final = 5
 """Number of reasons of failures that are shown."""
 
 
-def inspection_text(found: Inspection) -> Iterator[RenderableType]:
+def inspection_text(found: Findings) -> Iterator[RenderableType]:
     """Yield the tables and texts of an inspection, to be printed by :func:`.show`."""
     yield f"{title(found)}: {headline(found.results.summary)}"
     if said := verdict(found):
@@ -43,7 +43,7 @@ def inspection_text(found: Inspection) -> Iterator[RenderableType]:
         yield f"{counted(len(lifts), 'lift')} failed, first {lifts[0].name}: {one_line(reason)}"
 
 
-def _worst_table(found: Inspection) -> Table:
+def _worst_table(found: Findings) -> Table:
     return table(
         "Worst lifts",
         (
@@ -94,7 +94,7 @@ def _part_row(each: PartScore) -> list[Cell]:
     ]
 
 
-def _phases_table(found: Inspection) -> Table:
+def _phases_table(found: Findings) -> Table:
     return table(
         "Phases of a lift",
         ("phase", "time", shown(found), "RMS mm", "two people"),
