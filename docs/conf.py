@@ -44,6 +44,8 @@ nitpick_ignore_regex = [
     # The arrays behind a state of the twin have no page.
     ("py:class", r"colift\.benchmark\.twin\..*"),
     ("py:class", r"colift\.benchmark\.twin_environment\.(running|pool)\..*"),
+    # What an inspection consists of.
+    ("py:class", r"colift\.benchmark\.(inspection|results)\..*"),
     ("py:.*", "(?!colift).*"),  # Other projects' sites cannot be asked offline.
     ("py:(class|obj)", r"colift\.agents\.rules\.functions\..*"),  # Types of numbers and arrays.
 ]
@@ -53,7 +55,6 @@ nitpick_ignore = [
     ("py:class", "colift.benchmark.comparison.compare.Comparison"),
     ("py:class", "colift.benchmark.comparison.ranking.RankedPolicy"),
     ("py:class", "colift.benchmark.episode.bodies.Bodies"),
-    ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),
     ("py:class", "colift.benchmark.world.table.Table"),
 ]

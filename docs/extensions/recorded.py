@@ -72,7 +72,9 @@ class ResultTable(SphinxDirective):
             following = parts[place + 1] if place + 1 < len(parts) else ""
             if isinstance(part, PrintedTable):
                 before = parts[place - 1] if place else ""
-                found.append(_table(part, before if _is_title(before) else ""))
+                table = _table(part, before if _is_title(before) else "")
+                self.state.document.set_id(table)  # Sphinx wants one where there is a title.
+                found.append(table)
             elif not (isinstance(following, PrintedTable) and _is_title(part)):
                 found.append(nodes.paragraph("", part, classes=["printed"]))
         return found
