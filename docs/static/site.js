@@ -7,8 +7,11 @@ function mark(box) {
   else box.removeAttribute("tabindex");
 }
 
-const sizes = new ResizeObserver((seen) => seen.forEach(({ target }) => mark(target)));
-for (const box of document.querySelectorAll(BOXES)) sizes.observe(box);
+// The content may grow in a box that keeps its size, as when a font arrives; a folded box is not observed.
+const boxes = document.querySelectorAll(BOXES);
+const sizes = new ResizeObserver((seen) => seen.forEach(({ target }) => mark(target.closest(BOXES))));
+for (const box of boxes) for (const each of [box, ...box.children]) sizes.observe(each);
+addEventListener("resize", () => boxes.forEach(mark));
 
 // The theme has two landmarks of one kind without names, and Sphinx headings of lists without a level.
 document.querySelector(".sidebar-drawer")?.setAttribute("aria-label", "Site");
