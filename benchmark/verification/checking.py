@@ -13,7 +13,7 @@ from colift.benchmark.bundle import Results, results
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, Scenario
 from colift.benchmark.episode.turns import START
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,

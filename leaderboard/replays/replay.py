@@ -85,7 +85,7 @@ def play_ghost(scenario: Scenario, seed: int) -> Ghost:
         If the task or the behaviour of another package failed.
     """
     with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
-        with partner_spec(scenario.task).agent() as partner, blaming_plugins(scenario, seed):
+        with partner_spec(scenario).agent() as partner, blaming_plugins(scenario, seed):
             episode = run_episode(lift, partner, seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 

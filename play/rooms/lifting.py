@@ -13,7 +13,7 @@ from colift.base.errors import EvaluatorFault
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import entered
+from colift.benchmark.execution.playing import entered
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.real_lifts.suites import SEED
 from colift.benchmark.suites.suite import Suite

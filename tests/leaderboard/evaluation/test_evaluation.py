@@ -12,7 +12,7 @@ from colift.agents.spec import InProcess
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.turns import policy_seed
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import play_baselines
 from colift.benchmark.suites.hidden import commitment
