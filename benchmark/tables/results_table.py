@@ -17,6 +17,7 @@ from colift.benchmark.results.strata import (
     mean_of_strata,
     spread_over_people,
 )
+from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
@@ -70,7 +71,8 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             None,
             styled(("all", *_row(strata, shown, several)), "bold"),
         ],
-        caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
+        caption=f"{counted(summary.episodes, 'lift')}{_session(content)}, "
+        f"{summary.failed} failed; "
         f"suite digest {content.suite_digest}. "
         + " ".join(filter(None, (PEOPLE, spread, notes(shown)))),
     )
@@ -84,6 +86,10 @@ def results_text(content: Results, metrics: Metrics) -> str:
         lines.append(f"Channel to the policy: {content.channel}. The baselines have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
+    if content.session is not None:
+        lines.append(_curve("RMSE mm, lift by lift", content.session.rmse_mm))
+        if content.session.human_human_rmse_mm is not None:
+            lines.append(_curve("  two people", content.session.human_human_rmse_mm))
     if summary.rougher:
         lines.append(f"{MEANING} This policy is, by {by_which(summary.rougher, metrics)}.")
     for name, baseline in content.baselines.items():
@@ -107,6 +113,21 @@ def results_text(content: Results, metrics: Metrics) -> str:
         note = "" if content.isolation in VERIFIABLE else "; not enough for a verified row"
         lines.append(f"Isolation: {content.isolation}{note}")
     return "\n".join(lines)
+
+
+def _session(content: Results) -> str:
+    """Return which lifts of a session count; empty if lifts are independent."""
+    curve = content.session
+    if curve is None:
+        return ""
+    return (
+        f", {len(curve.rmse_mm)} with each person in a row, of which the last {curve.counted} count"
+    )
+
+
+def _curve(label: str, curve: Sequence[Estimate]) -> str:
+    """Return the errors of the lifts of a session in a line."""
+    return f"{label}: {' '.join(f'{each.mean:.1f}' for each in curve)}"
 
 
 def _over(content: Results) -> str:

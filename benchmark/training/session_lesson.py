@@ -13,7 +13,7 @@ import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.control.recurrent import GatedNetwork, Memory, network_of
-from colift.agents.control.session_controller import SESSION_INPUTS, act_in_session, next_lift
+from colift.agents.sessions.session_controller import SESSION_INPUTS, act_in_session, next_lift
 from colift.agents.humans.serial import Serial
 from colift.agents.submissions import session as submission
 from colift.benchmark.episode.scenario import Scenario

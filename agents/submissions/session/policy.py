@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from colift.agents.control.recurrent import read_gated
-from colift.agents.control.session_controller import SESSION_INPUTS, SessionController
+from colift.agents.sessions.session_controller import SESSION_INPUTS, SessionController
 
 
 class Policy(SessionController):

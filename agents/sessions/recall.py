@@ -8,8 +8,9 @@ import numpy as np
 from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.anticipation import FeatureHistory
 from colift.agents.control.linear_forecast import load_linear
-from colift.agents.control.past_lifts import PastLifts
 from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.sessions.past_lifts import PastLifts
+from colift.agents.sessions.sensor_age import SensorAge
 from colift.base.errors import InputError
 
 
@@ -17,8 +18,6 @@ from colift.base.errors import InputError
 class RecallParameters:
     """Parameters of :class:`Recall`."""
 
-    latency: float = 0.1
-    """Assumed age of the seen heights [s]."""
     remember: bool = True
     """Whether lifts are remembered; without, only the forecast is left."""
     forgetting: float = 0.8
@@ -34,8 +33,6 @@ class RecallParameters:
         InputError
             If a number is out of range.
         """
-        if not 0 <= self.latency < math.inf:
-            raise InputError(f"latency must be a number of at least 0, got {self.latency}")
         if not 0 <= self.forgetting < 1:
             raise InputError(f"forgetting must be at least 0 and below 1, got {self.forgetting}")
         if not 0 < self.sag_memory < math.inf:
@@ -52,7 +49,7 @@ class Recall:
     that of the lifts of the session so far (:class:`.PastLifts`), and that of
     :class:`.LinearForecast`, with the filtered squared errors s_r^2 and s_f^2 that they have made.
     The sag of the arm is added, as measured by its encoders. In the first lift with a person, the
-    forecast is alone.
+    forecast is alone, and the samples are taken to be as old as usual (:class:`.SensorAge`).
     """
 
     def __init__(self, *, parameters: RecallParameters | None = None) -> None:
@@ -62,13 +59,15 @@ class Recall:
 
     def begin_session(self) -> None:
         """Forget the last person."""
-        self._past = PastLifts()
+        self._past, self._age = PastLifts(), SensorAge()
         self._heights: list[float] = []
 
     def reset(self, seed: int) -> None:
         """Begin a lift; the last one is remembered."""
-        if self._parameters.remember:
-            self._past.add(self._heights)
+        if not self._parameters.remember:
+            self.begin_session()
+        self._past.add(self._heights)
+        self._age.end_lift()
         self._heights = []
         self._history = FeatureHistory(self._forecast.window)
         self._made: deque[tuple[float, float, float]] = deque()
@@ -82,7 +81,8 @@ class Recall:
         period = history.period(DEFAULT_PERIOD)
         height, *changes = history.features()
         self._heights.append(float(height))
-        horizon = parameters.latency + period
+        self._age.add(observation)
+        horizon = self._age.seconds + period
         forecast = self._forecast.rise(np.array(changes), horizon)
         past = self._past.recollect(self._heights, horizon / period, period)
         recalled = forecast if past is None else past.rise
