@@ -58,7 +58,8 @@ class SessionBlend:
 
     def _error(self, factor: float) -> float:
         """Return the squared error of the predictions of a filter in the last lift [m2]."""
-        predictor, made, total = self._with_noise(factor), [], 0.0
+        predictor, total = self._with_noise(factor), 0.0
+        made: list[float] = []
         for observation in self._lift:
             predictor.step(observation)
             ahead = self._ages.seconds + predictor.period

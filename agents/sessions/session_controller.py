@@ -53,6 +53,11 @@ class SessionController:
         """Begin with a new person."""
         self._memory = memory_at_rest(self._network)
 
+    @property
+    def units(self) -> Any:
+        """(u,) the network's units now."""
+        return self._memory.units
+
     def reset(self, seed: int) -> None:
         """Begin a lift."""
         if not self._remember:

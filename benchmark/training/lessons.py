@@ -9,7 +9,8 @@ from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import PolicyLesson
 from colift.benchmark.training.level_lesson import LevelLesson
-from colift.benchmark.training.session_lesson import Kind, SessionLesson
+from colift.benchmark.training.session_kinds import Kind
+from colift.benchmark.training.session_lesson import SessionLesson
 from colift.benchmark.training.touch_lesson import TouchLesson
 
 SESSIONS: Final = "session-v1"

@@ -6,15 +6,15 @@ or begin each lift anew; or it is told the person's habits, as no policy is.
 
 from dataclasses import replace
 from types import ModuleType
-from typing import Any, Final, Literal, NamedTuple
+from typing import Any, Final, NamedTuple
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import RobotObservation
 from colift.agents.control.recurrent import GatedNetwork, Memory, network_of
-from colift.agents.sessions.session_controller import SESSION_INPUTS, act_in_session, next_lift
 from colift.agents.humans.serial import Serial
+from colift.agents.sessions.session_controller import SESSION_INPUTS, act_in_session, next_lift
 from colift.agents.submissions import session as submission
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import make_subject
@@ -23,15 +23,12 @@ from colift.benchmark.tasks.session.telling import TOLD, habits_told
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
 from colift.benchmark.training.sensing import with_own_errors
+from colift.benchmark.training.session_kinds import Kind
 from colift.benchmark.training.validation import VALIDATION_SEEDS, learning_seeds
 from colift.benchmark.twin.lifts import Lifts
 from colift.benchmark.twin.policy import JAX, Policy
 from colift.benchmark.twin.sessions import SessionOutcome, draw_sessions, play_sessions
 from colift.benchmark.twin.task_twin import TaskTwin
-
-Kind = Literal["remember", "forget", "told"]
-"""A network that keeps its units from lift to lift; one that does not; one that does not, and is
-told the habits."""
 
 OWN: Final = len(RobotObservation)
 """Numbers of a policy's own observation."""

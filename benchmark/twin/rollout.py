@@ -94,7 +94,11 @@ def rollout(
         rmse_mm=twin.score_mm(lifts, missed),
         bend_mm=1000 * jnp.sqrt(bends + 1e-12),
         force_n=jnp.sqrt(forces.sum(axis=0) / lifts.steps + 1e-12),
-        seen=Seen(*(each.reshape(-1, lifts.size) for each in heights), memory=memory)
-        if seen
-        else None,
+        seen=Seen(*_joined(heights, lifts.size), memory=memory) if seen else None,
     )
+
+
+def _joined(heights: tuple[jax.Array, ...], count: int) -> tuple[jax.Array, jax.Array]:
+    """Return the heights of both ends (T, n), from those of steps (s, f, n)."""
+    near, far = (each.reshape(-1, count) for each in heights)
+    return near, far
