@@ -140,7 +140,8 @@ def memory_of(
         If there are too few people.
     """
     people = ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
-    every: dict[str, GatedNetwork] = {**networks, OTHER: networks[REMEMBER]}
+    every: dict[str, GatedNetwork] = dict(networks.items())
+    every[OTHER] = networks[REMEMBER]
     tables = {HUMAN_HUMAN_LABEL: people} | {
         name: _table(suite, name, every[name], executor, progress) for name in PLAYERS
     }
