@@ -68,7 +68,7 @@ def play_session(
         As :func:`play`.
     """
     scenario = lifts[0].scenario
-    policy = _paced(policy, scenario)
+    policy = _paced(policy, scenario, len(lifts))
     with contextlib.ExitStack() as stack:
         session: Agent | None = None
         for due in lifts:
@@ -89,9 +89,9 @@ def play_session(
             yield dataclasses.replace(episode, policy_time=made + episode.policy_time)
 
 
-def _paced(policy: AgentSpec, scenario: Scenario) -> AgentSpec:
-    """Return a policy with the time budgets of a scenario."""
-    return policy.paced(scenario.control_period) if isinstance(policy, Paced) else policy
+def _paced(policy: AgentSpec, scenario: Scenario, lifts: int = 1) -> AgentSpec:
+    """Return a policy with the time budgets of some lifts of a scenario."""
+    return policy.paced(scenario.control_period, lifts) if isinstance(policy, Paced) else policy
 
 
 class _Unmade:
