@@ -19,7 +19,7 @@ class Calibration:
     process_noise: float
     """q of the motion filter [mm2/s6]."""
     partner_lag: float
-    """Lag of the partner, the second human of the human-human baseline [s]."""
+    """Lag of the partner, the second of two people [s]."""
     provenance: dict[str, Any]
     """Method, data and result of the fit."""
 

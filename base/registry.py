@@ -109,6 +109,16 @@ def own_policies(task: str) -> tuple[str, ...]:
     return tuple(name for name in playing(task) if name in own)
 
 
+def made_for(task: str) -> tuple[str, ...]:
+    """Return the names of colift's own policies that are made for a task.
+
+    These are those that play it alone or, of a task without such policies, all that play it.
+    """
+    own = own_policies(task)
+    special = tuple(name for name in policies_by_task().get(task, ()) if name in own)
+    return special or own
+
+
 def other_task(policy: str, task: str) -> str | None:
     """Return the task of a registered policy that is not for ``task``; None for all other policies.
 

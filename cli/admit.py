@@ -79,6 +79,8 @@ def admit_suite(
 
     Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
     the person. Exit code 1 if the first is not shown, or is shown for the control.
+
+    Example: colift admit agree-v1 --people 4
     """
     chosen = chosen_suite(suite, None, None, None)
     if tune_policies:
@@ -183,7 +185,9 @@ def _means(found: Admission) -> Table:
     """Return the mean errors of everybody, the best first."""
     means = sorted(found.means.items(), key=lambda each: each[1])
     rows = ((name, f"{mean:.2f}") for name, mean in means)
-    return table(f"Mean RMSE on {found.suite}, mm", ("who", "all"), rows)
+    title = f"Mean RMSE on {found.suite}, mm"
+    # With an error of two digits beside it, the column is as wide as the title, which would fold.
+    return table(title, (Column("who", min_width=len(title) - 8), "all"), rows)
 
 
 def _criteria(found: Admission) -> Table:

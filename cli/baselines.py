@@ -39,7 +39,10 @@ def baselines(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Play the baselines and the references on suites, and print their RMSE per behaviour."""
+    """Play the baselines and the references on suites, and print their RMSE per behaviour.
+
+    Example: colift baselines --suite quick-v1 --out baselines.json
+    """
     check_output(out)
     suites = [make_suite(name) for name in only or own_entries(SUITES)]
     total = sum((len(BASELINES) + len(suite_references(suite))) * suite.size for suite in suites)

@@ -73,6 +73,8 @@ def bench(
     """Measure the benchmark itself: speed (as ratios within this run), memory, convergence.
 
     Exit code 1 if a figure misses its bar, or a policy or the twin its limit.
+
+    Example: colift bench --episodes 200
     """
     check_exclusive(
         convergence=convergence, policies=policies, isolation=isolation, scale=scale, twin=twin

@@ -5,9 +5,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from colift.base.errors import InputError
 from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.tables.printing import show, stdout_console
-from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, opened_board
+from colift.cli.board_options import BOARD, ExistingBoard, SeasonName, Title, opened_board
 from colift.cli.document import print_json
 from colift.cli.options import AsJson, check_exclusive
 from colift.cli.tables.board import board_table
@@ -19,6 +20,7 @@ from colift.leaderboard.practice.season_import import open_to_read
 from colift.leaderboard.queue import Queue
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.exports import standings_plain
+from colift.leaderboard.views.page import NAME
 
 
 def board(
@@ -29,6 +31,7 @@ def board(
         Path | None,
         typer.Option(metavar="DIR", help="Write the pages of all seasons, to open or to host."),
     ] = None,
+    title: Title = NAME,
     backup: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the whole board to one file, even while in use."),
@@ -40,8 +43,13 @@ def board(
         ),
     ] = None,
 ) -> None:
-    """Print a board's table: ranks, RMSE with its interval, and the human-human baseline."""
+    """Print a board's table: ranks, RMSE with its interval, and two people.
+
+    Example: colift board --board board
+    """
     check_exclusive(json=as_json, site=site, backup=backup, restore=from_backup)
+    if title != NAME and site is None:
+        raise InputError("--title belongs to --site: it is the name on the pages")
     if from_backup is not None:
         _report(restore(from_backup, board), f"restored {from_backup} to {board}")
         print(f"Next: colift board --board {board}")
@@ -52,7 +60,7 @@ def board(
             _report(back_up(opened, backup), f"backed up {board} to {backup}")
             print("It holds the secrets of the seasons: keep it to yourself.")
         elif site is not None:
-            write_site(opened, site)
+            write_site(opened, site, title)
             print(f"Open {(site / 'index.html').absolute().as_uri()}")
         elif as_json:
             print_json(_content(opened, season))

@@ -73,6 +73,29 @@ BoardFolder = Annotated[
 SeasonName = Annotated[
     str | None, typer.Option("--season", metavar="NAME", help="Season; default: the current one.")
 ]
+LONGEST_TITLE: Final = 60
+"""Longest name of a board [characters]: a phone shows it in two lines."""
+
+
+def _title(text: str) -> str:
+    """Return the name of a board; refuse one that does not fit in the head of a page."""
+    if not (0 < len(text) <= LONGEST_TITLE and text.isprintable() and text.strip() == text):
+        raise InputError(
+            f"--title must be 1 to {LONGEST_TITLE} letters on one line, without spaces around "
+            f"them, got {text!r:.80}"
+        )
+    return text
+
+
+Title = Annotated[
+    str,
+    typer.Option(
+        "--title",
+        metavar="TEXT",
+        help="Name of the board on its pages, such as that of a course.",
+        callback=_title,
+    ),
+]
 Why = Annotated[str, typer.Option("--why", metavar="TEXT", help="The reason; it is public.")]
 BoardIsolation = Annotated[
     str,

@@ -25,13 +25,16 @@ def calibrate(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Fit lift heights, process noise and the human partner's lag to the paper's results."""
+    """Fit lift heights, process noise and the human partner's lag to the paper's results.
+
+    Example: colift calibrate --out calibration.json
+    """
     check_new_file(out)
     with workers("calibrating", episodes(), jobs) as (pool, progress):
         for number, fit in enumerate(fit_rounds(executor=pool, progress=progress), 1):
             print(
                 f"round {number} of {ROUNDS}: worst cell {100 * fit.worst_cell:.1f} % off, "
-                f"human-human {fit.human_human:.3f} mm"
+                f"two people {fit.human_human:.3f} mm"
             )
     show(_table(fit))
     write_output(out, calibration_json(fit))

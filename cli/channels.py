@@ -3,6 +3,7 @@
 import dataclasses
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Final
 
 import typer
@@ -10,8 +11,10 @@ from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.channels import CHANNELS
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.over_channels import OverChannel, over_channels
+from colift.benchmark.comparison.tables import policy_cell
 from colift.benchmark.execution.fitting import check_fits
 from colift.benchmark.execution.progress import workers
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.tables.printing import Cell, show, table
 from colift.cli.completion import channels as channel_names
 from colift.cli.completion import policies as named
@@ -19,15 +22,18 @@ from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
     AsJson,
+    AsTheyWere,
     Behaviours,
     Jobs,
+    LayoutName,
     Recordings,
     Seeds,
     SuiteName,
+    check_figure,
     chosen_channel,
+    chosen_layout,
     chosen_suite,
 )
-from colift.cli.tables.comparison import policy_cell
 from colift.cli.tables.recordings import recordings_json, show_recordings
 from rich.table import Column, Table
 
@@ -57,16 +63,26 @@ def measure_channels(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    as_recorded: AsTheyWere = False,
     jobs: Jobs = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Figure (.png, .svg, .pdf).")
+    ] = None,
+    layout: LayoutName = PAGE.name,
     as_json: AsJson = False,
 ) -> None:
-    """Measure policies with and without a network that delays and loses messages."""
-    episodes = chosen_suite(suite, seeds, recordings, behaviour)
+    """Measure policies with and without a network that delays and loses messages.
+
+    Example: colift channels blend anticipate --channel satellite
+    """
+    episodes = chosen_suite(suite, seeds, recordings, behaviour, as_recorded=as_recorded)
     chosen = {text: chosen_channel(text) for text in channels or CHANNELS}
     networks = {text: channel for text, channel in chosen.items() if channel is not None}
     specs = {text: checked_policy(text) for text in policies or MEASURED}
     for spec in specs.values():
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
+    check_figure(out)
+    size = chosen_layout(layout)
     total = len(specs) * (1 + len(networks)) * episodes.size
     with (
         reported_interrupt("policies are measured on all lifts or not at all"),
@@ -74,6 +90,14 @@ def measure_channels(
     ):
         show_recordings(episodes, as_json)
         found = list(over_channels(specs, networks, episodes, executor=pool, progress=progress))
+    if out is not None:
+        # matplotlib is slow to load.
+        from colift.benchmark.comparison.channels_figure import channels_figure
+        from colift.benchmark.rendering.figures import drawn_for, write_figure
+
+        with drawn_for(size):
+            figure = channels_figure(found, size)
+        write_figure(out, figure, f"The price of a channel on {episodes.name}")
     if as_json:
         content = {
             "suite": episodes.name,

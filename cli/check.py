@@ -60,6 +60,8 @@ def check(
     minutes for one that takes a tenth of a second per step. The score is the RMSE on quick-v1, the
     same number that a board of that suite shows; or, with --suite, on lifts of another suite. Exit
     code 1 if a check fails.
+
+    Example: colift check mine
     """
     level = usable_level(isolation)
     console, done = stdout_console(), []

@@ -19,8 +19,11 @@ PANELS: Final[Mapping[str, Mapping[str, str]]] = {
         "compare": "compare:compare_policies",
         "summary": "summary:summarise_bundles",
         "channels": "channels:measure_channels",
+        "recordings": "recordings:make_recordings",
         "validity": "validity:validity",
+        "pairs": "pairs:pairs",
         "list": "listing:list_all",
+        "inspect": "inspect:inspect_bundle",
         "render": "render:render_episode",
         "play": "play:play",
         "demonstrate": "demonstrate:demonstrate_lifts",
@@ -199,11 +202,14 @@ def _plain(command: Any) -> None:
     """Let the help of a command be plain text without types, whose paragraphs the terminal wraps.
 
     Rich would take longer to import than the help to print, and draw boxes into files. Names of
-    arguments show what they are; Typer would print ``<str>`` beside them.
+    arguments show what they are; Typer would print ``<str>`` beside them. The last paragraph,
+    ``Example: colift run blend``, becomes the epilog: the command line alone.
     """
     command.rich_markup_mode = None
-    paragraphs = inspect.cleandoc(command.help or "").split("\n\n")
-    command.help = "\n\n".join(" ".join(each.split()) for each in paragraphs)
+    words, _, example = inspect.cleandoc(command.help or "").partition("\n\nExample: ")
+    command.help = "\n\n".join(" ".join(each.split()) for each in words.split("\n\n"))
+    command.epilog = example
+    command.format_epilog = lambda ctx, formatter: _show_example(formatter, example)
     for parameter in command.params:
         if parameter.param_type_name == "argument":
             parameter.display_type_rich = lambda ctx: ""
@@ -212,6 +218,13 @@ def _plain(command: Any) -> None:
         for each in inner.values():
             _plain(each)
         command.format_commands = lambda ctx, formatter: _list(formatter, "Commands", inner)
+
+
+def _show_example(formatter: Any, example: str) -> None:
+    """Write the section of a command's example, if it has one; its line is not wrapped."""
+    if example:
+        with formatter.section("Example"):
+            formatter.write_text(f"\b\n{example}")
 
 
 def _list(formatter: Any, title: str, commands: Mapping[str, Any]) -> None:

@@ -1,49 +1,57 @@
 """``colift compare``: a comparison of policies, lift by lift."""
 
-import dataclasses
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from colift.agents.spec import AgentSpec
+from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.choice import checked_policy
-from colift.base.errors import InputError
-from colift.base.registry import POLICIES, STANDARD_SUITE, check_plays, entries, playing
-from colift.benchmark.bundle import is_bundle
-from colift.benchmark.channels import Channel
-from colift.benchmark.comparison.captions import failures, goals, roughness, unit_warnings, verdict
+from colift.base.errors import EvaluatorFault, InputError
+from colift.base.registry import STANDARD_SUITE, check_plays, playing
+from colift.benchmark.comparison.captions import failures, remarks
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
+from colift.benchmark.comparison.entrants import named_apart
 from colift.benchmark.comparison.files import comparison_json
-from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.comparison.playing import Reference, episodes_to_play, play_policies
-from colift.benchmark.comparison.stored import Stored, check_same_lifts, read_stored
+from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.comparison.stored import Stored, check_same_lifts, stored_among
+from colift.benchmark.comparison.tables import comparison_tables
 from colift.benchmark.execution.fitting import check_fits
-from colift.benchmark.execution.progress import workers
+from colift.benchmark.execution.journal import Journal
+from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.references.catalogue import suite_references
-from colift.benchmark.suites.suite import Suite
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
 from colift.cli.completion import policies as named
 from colift.cli.completion import suites
 from colift.cli.document import print_json
+from colift.cli.evaluation import GO_ON, identity, journal_of, origin_of
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import (
+    LATENCY_OPTION,
+    PERIOD_OPTION,
     AsJson,
+    AsTheyWere,
     Behaviours,
     ChannelName,
+    Dask,
     Jobs,
+    LayoutName,
+    PolicyIsolation,
     Recordings,
     RobotName,
     Seeds,
     chosen_channel,
+    chosen_layout,
     chosen_suite,
+    executor,
     try_folder,
 )
-from colift.cli.tables.comparison import behaviours_table, differences_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 
 
@@ -71,8 +79,12 @@ def compare_policies(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    as_recorded: AsTheyWere = False,
     robot: RobotName = None,
+    latency: Annotated[float | None, LATENCY_OPTION] = None,
+    control_period: Annotated[float | None, PERIOD_OPTION] = None,
     channel: ChannelName = None,
+    isolation: PolicyIsolation = AUTO,
     references: Annotated[
         bool,
         typer.Option(
@@ -81,45 +93,85 @@ def compare_policies(
         ),
     ] = False,
     jobs: Jobs = None,
+    dask: Dask = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Folder for compare.html, .png, .csv and .json."),
+        typer.Option(
+            metavar="DIR",
+            help="Folder for compare.html, .csv and .json, the figures (.png, .svg, .pdf), and "
+            "compare.tex and .bib for LaTeX.",
+        ),
     ] = None,
+    layout: LayoutName = PAGE.name,
+    resume: Annotated[
+        bool,
+        typer.Option("--resume", help="Resume the interrupted comparison in --out."),
+    ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour."""
+    """Compare policies on the same lifts: ranks, paired differences, and RMSE per behaviour.
+
+    With --out, each lift is saved when it is finished, and an interrupted comparison can be
+    resumed.
+
+    Example: colift compare copy blend anticipate --suite quick-v1
+    """
+    if resume and out is None:
+        raise InputError("--resume needs the --out of the comparison that was interrupted")
     named = policies or []
-    bundles = _stored(named)
-    if bundles and not (suite or seeds or recordings or behaviour or robot):
+    bundles = stored_among(named)
+    if bundles and not (suite or seeds or recordings or as_recorded or behaviour or robot):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot)
+        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded)
+    episodes = episodes.with_timing(latency, control_period)
     task = episodes.scenarios[0].task.name
-    specs, stored = _policies(named, playing(task) if everything else (), bundles, task)
-    for each in stored:
-        mention_others(each.folder)
+    specs, stored = _policies(named, playing(task) if everything else (), bundles, task, isolation)
+    for folder in bundles:
+        mention_others(Path(folder))
     network = chosen_channel(channel)
     if network is None and stored:
         network = stored[0].channel
     check_same_lifts(stored, episodes, network)
     for spec in specs.values():
         check_fits(spec, episodes.scenarios[0], episodes.seeds[0])
+    size = chosen_layout(layout)
     if out is not None:
         # The files need matplotlib, which is slow to load.
         from colift.benchmark.comparison.files import write_comparison
 
         try_folder("--out", out)
+        out.parent.mkdir(parents=True, exist_ok=True)  # The journal is beside the folder.
     limits = suite_references(episodes) if references else {}
     results = [each.policy for each in stored]
-    comparison = _compare(specs, results, episodes, limits, network, jobs, as_json)
-    if out is not None:
-        write_comparison(out, comparison)
+    total = episodes_to_play(len(specs), episodes, references=len(limits))
+    with executor(jobs, dask) as pool, progress_bar("compare", total) as progress:
+        there = origin_of(pool)
+        show_recordings(episodes, as_json)
+        who = identity([*specs.values()], episodes, network, there)
+        with journal_of(out, who, resume=resume) as journal, _kept(journal):
+            comparison = compared(
+                play_policies(
+                    specs,
+                    episodes,
+                    stored=results,
+                    references=limits,
+                    executor=pool,
+                    progress=progress,
+                    channel=network,
+                    journal=journal,
+                )
+            )
+            if out is not None:
+                write_comparison(out, comparison, size)
+            if journal is not None:
+                journal.remove()
     if as_json:
         print_json(comparison_json(comparison))
     else:
         _show(comparison)
         for each in stored:
-            print(f"{each.policy.name}: from {each.folder}, not simulated again")
+            print(f"{each.policy.name}: from {each.origin}, not simulated again")
         if out is not None:
             print(f"Page: {out / 'compare.html'}")
     failed = failures(comparison)
@@ -128,17 +180,12 @@ def compare_policies(
         raise typer.Exit(1)
 
 
-def _stored(named: Sequence[str]) -> dict[str, Stored]:
-    """Return the stored results among the named policies, by their folders."""
-    return {
-        text: read_stored(Path(text))
-        for text in named
-        if text not in entries(POLICIES) and is_bundle(Path(text))
-    }
-
-
 def _policies(
-    named: Sequence[str], others: Iterable[str], stored: Mapping[str, Stored], task: str
+    named: Sequence[str],
+    others: Iterable[str],
+    stored: Mapping[str, Stored],
+    task: str,
+    isolation: str,
 ) -> tuple[dict[str, AgentSpec], list[Stored]]:
     """Return the policies to play, by the names that tables use, and the stored results.
 
@@ -157,54 +204,22 @@ def _policies(
         raise InputError(f"name at least two policies, or --all: {given} was named")
     for text in texts:
         check_plays(text, task)
-    specs = {text: checked_policy(text) for text in texts if text not in stored}
-    names = Counter(spec.name for spec in specs.values())
-    names.update(each.policy.name for each in stored.values())
-    # Policies of the same name are distinguished by their place.
-    called = {spec.name if names[spec.name] == 1 else text: spec for text, spec in specs.items()}
-    return called, [
-        each
-        if names[each.policy.name] == 1
-        else dataclasses.replace(each, policy=dataclasses.replace(each.policy, name=text))
-        for text, each in stored.items()
-    ]
+    specs = {text: checked_policy(text, isolation) for text in texts if text not in stored}
+    return named_apart(specs, stored)
 
 
-def _compare(
-    specs: Mapping[str, AgentSpec],
-    stored: Sequence[PolicyResults],
-    suite: Suite,
-    references: Mapping[str, Reference],
-    channel: Channel | None,
-    jobs: int | None,
-    as_json: bool,
-) -> Comparison:
-    """Play the episodes and compare."""
-    total = episodes_to_play(len(specs), suite, references=len(references))
-    with (
-        reported_interrupt("policies are compared on all lifts or not at all"),
-        workers("compare", total, jobs) as (pool, progress),
-    ):
-        show_recordings(suite, as_json)
-        results = play_policies(
-            specs,
-            suite,
-            stored=stored,
-            references=references,
-            executor=pool,
-            progress=progress,
-            channel=channel,
-        )
-        return compared(results)
+@contextmanager
+def _kept(journal: Journal | None) -> Iterator[None]:
+    """End the command with a message if Ctrl-C is pressed or the machine fails in the body."""
+    lost = "policies are compared on all lifts or not at all; --out would keep the finished ones"
+    try:
+        with reported_interrupt(lost if journal is None else GO_ON):
+            yield
+    except EvaluatorFault as fault:
+        if journal is None:
+            raise
+        raise EvaluatorFault(f"{fault}; {GO_ON}") from fault
 
 
 def _show(comparison: Comparison) -> None:
-    show(ranks_table(comparison), differences_table(comparison))
-    if len(comparison.behaviours) > 1:
-        show(behaviours_table(comparison))
-    show(
-        verdict(comparison),
-        *roughness(comparison),
-        *goals(comparison),
-        *unit_warnings(comparison),
-    )
+    show(*comparison_tables(comparison), *remarks(comparison))

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from colift.base.registry import HUMANS, POLICIES, ROBOTS, entries, suite_names
 from colift.benchmark.channels import CHANNELS
+from colift.benchmark.rendering.layout import LAYOUTS
 
 
 def policies(incomplete: str) -> Iterator[str]:
@@ -44,6 +45,11 @@ def behaviours(incomplete: str) -> Iterator[str]:
 def channels(incomplete: str) -> Iterator[str]:
     """Yield the named channels that begin with a text."""
     yield from (name for name in CHANNELS if name.startswith(incomplete))
+
+
+def layouts(incomplete: str) -> Iterator[str]:
+    """Yield the sizes of figures that begin with a text."""
+    yield from (name for name in LAYOUTS if name.startswith(incomplete))
 
 
 def people(incomplete: str) -> Iterator[str]:

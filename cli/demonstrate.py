@@ -24,7 +24,10 @@ def demonstrate_lifts(
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the first lift.")] = FIRST_SEED,
     jobs: Jobs = None,
 ) -> None:
-    """Record simulated human-human lifts: drawn subjects, all behaviours, seeds in no suite."""
+    """Record lifts of two simulated people: drawn subjects, all behaviours, seeds in no suite.
+
+    Example: colift demonstrate --lifts 40 --out demonstrations.csv
+    """
     check_new_file(out)
     with reported_interrupt(f"{out} is not written"):
         recorded = record(lifts, seed, jobs)

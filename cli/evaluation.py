@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -34,6 +34,7 @@ from colift.benchmark.execution.provenance import origin, platform_of
 from colift.benchmark.execution.runner import InterruptedRunError, Run, run_suite
 from colift.benchmark.results.baselines import (
     BASELINES,
+    HUMAN_HUMAN,
     play_baselines,
     shipped_baselines,
 )
@@ -76,10 +77,17 @@ class Bundle:
 
     def journal(self, identity: Mapping[str, str]) -> AbstractContextManager[Journal | None]:
         """Return the journal of finished episodes, if a bundle is requested."""
-        if self.folder is None:
-            return nullcontext()
-        journal = open_journal(self.folder, identity, resume=self.resume)
-        return opened(journal, "--resume" if self.resume else "--out")
+        return journal_of(self.folder, identity, resume=self.resume)
+
+
+def journal_of(
+    folder: Path | None, identity: Mapping[str, str], *, resume: bool
+) -> AbstractContextManager[Journal | None]:
+    """Return the journal of ``--out``, see :func:`.open_journal`; None without a folder."""
+    if folder is None:
+        return nullcontext()
+    journal = open_journal(folder, identity, resume=resume)
+    return opened(journal, "--resume" if resume else "--out")
 
 
 def evaluate(
@@ -128,12 +136,9 @@ def evaluate(
             file=sys.stderr,
         )
     with pool as workers:
-        there = origin()
-        if isinstance(workers, Cluster):
-            there = workers.origin
-            _mention_idle(workers)
+        there = origin_of(workers)
         show_recordings(suite, as_json)
-        with bundle.journal(_identity(spec, suite, channel, there)) as journal:
+        with bundle.journal(identity([spec], suite, channel, there)) as journal:
             try:
                 done, baselines = _evaluate(spec, suite, channel, workers, journal)
             except DeadPolicyError as dead:
@@ -144,7 +149,13 @@ def evaluate(
             finished = done.complete and baselines.keys() == set(BASELINES)
             content = results(done, baselines) if done.episodes else None
             if content is not None and out is not None:
-                write_bundle(out, done, content.plain(), platform=platform_of(there))
+                write_bundle(
+                    out,
+                    done,
+                    content.plain(),
+                    human_human=baselines.get(HUMAN_HUMAN),
+                    platform=platform_of(there),
+                )
             if journal is not None and finished:
                 journal.remove()
     if content is not None:
@@ -153,16 +164,27 @@ def evaluate(
         raise typer.Exit(1 if finished else INTERRUPTED)
 
 
-def _identity(
-    spec: AgentSpec, suite: Suite, channel: Channel | None, there: Mapping[str, str]
+def origin_of(workers: Executor | None) -> Mapping[str, str]:
+    """Return the origin of the lifts that an executor plays; report idle threads of a cluster."""
+    if not isinstance(workers, Cluster):
+        return origin()
+    _mention_idle(workers)
+    return workers.origin
+
+
+def identity(
+    policies: Sequence[AgentSpec],
+    suite: Suite,
+    channel: Channel | None,
+    there: Mapping[str, str],
 ) -> dict[str, str]:
-    """Return everything that an episode depends on, by name."""
+    """Return everything that the episodes of some policies depend on, by name."""
     return {
-        "policy": spec.name,
-        "policy digest": spec.digest(),
+        "policy": ", ".join(each.name for each in policies),
+        "policy digest": ", ".join(each.digest() for each in policies),
         "suite": suite.name,
         "suite digest": suite.digest,
-        "isolation": spec.isolation,
+        "isolation": ", ".join(dict.fromkeys(each.isolation for each in policies)),
         **({} if channel is None else {"channel": json.dumps(recorded(channel))}),
         **there,
     }

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Annotated, Final
 
 import typer
+from colift.agents.humans.recording_notes import notes_of
 from colift.base.errors import InputError
 from colift.benchmark.bundle import Bundle, one_line, read_bundle
 from colift.benchmark.execution.pool import checked_jobs
@@ -78,6 +79,8 @@ def export_lifts(
 
     A result bundle has no observations: each lift is replayed, and exported only if its states are
     equal to the bit.
+
+    Example: colift export bundle --to minari --out minari
     """
     if (bundle is None) == (fixed is None):
         raise InputError("name either a result bundle, or a fixed set by --set")
@@ -204,7 +207,9 @@ def _people(plan: list[SetLift], recordings: Path | None) -> str:
     drawn = f"{plan[0].scenario.subject.name} to {plan[-1].scenario.subject.name}"
     if recordings is None:
         return f"simulated, a new one in each lift: {drawn}"
-    return f"the motion recorded in {recordings.name}, with the arms of {drawn}"
+    notes = notes_of(recordings).text()
+    told = f" ({notes})" if notes else ""
+    return f"the motion recorded in {recordings.name}{told}, with the arms of {drawn}"
 
 
 def _report(contents: Contents, out: Path) -> None:

@@ -44,6 +44,8 @@ def figures(
 
     A figure is due if what it depends on has changed since it was made: a suite, a policy, other
     code, a script, or its command. Figures of a machine's speed are made again only by name.
+
+    Example: colift figures --remake board
     """
     check_exclusive(remake=again, check=check)
     files = recordings or []

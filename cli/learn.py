@@ -71,7 +71,10 @@ def reactive(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """Learn the paper's reactive controller online, while the human stands still."""
+    """Learn the paper's reactive controller online, while the human stands still.
+
+    Example: colift learn reactive --trials 20
+    """
     if trials < 1:
         raise InputError(f"--trials must be at least 1, got {trials}")
     check_new_file(out)
@@ -105,7 +108,10 @@ def task_model(
         Path | None, typer.Option(metavar="FILE.json", help="File for the model.")
     ] = None,
 ) -> None:
-    """Learn the task model from demonstrations, then its impedance by practice."""
+    """Learn the task model from demonstrations, then its impedance by practice.
+
+    Example: colift learn task_model --out task_model.json
+    """
     if practice < 1:
         raise InputError(f"--practice must be at least 1, got {practice}")
     check_new_file(out)
@@ -137,7 +143,10 @@ def anticipate(
     out: Out = None,
     jobs: Jobs = None,
 ) -> None:
-    """Learn to predict the human's motion, in rounds of lifts with drawn subjects."""
+    """Learn to predict the human's motion, in rounds of lifts with drawn subjects.
+
+    Example: colift learn anticipate --out anticipate.json
+    """
     timing = Timing(latency=latency, control_period=control_period)
     command = f"colift learn anticipate --lifts {lifts} --rounds {rounds} --seed {seed}"
     if timing != Timing():
@@ -167,7 +176,10 @@ def linear(
     seed: Seed = anticipation.FIRST_SEED,
     out: Out = None,
 ) -> None:
-    """Learn to predict the human's motion by a linear function of ten samples."""
+    """Learn to predict the human's motion by a linear function of ten samples.
+
+    Example: colift learn linear --out linear.json
+    """
     check_new_file(out)
     with progress_bar("lifting", lifts) as progress:
         forecast = linear_training.learn_linear(lifts=lifts, first_seed=seed, progress=progress)

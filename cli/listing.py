@@ -65,6 +65,8 @@ def list_all(
     """List policies, human behaviours, subjects, suites, tasks, robots and channels, one line each.
 
     Exit code 1 if one of them cannot be loaded; its line gives the reason.
+
+    Example: colift list suites
     """
     if named is not None and named not in SECTIONS:
         show(*_policy(named))

@@ -27,6 +27,8 @@ def new(
 
     policy.py holds the policy, one class; policy.toml names its authors and requirements. With
     --from, the policy is an existing one, named as for 'colift run FILE.py:Class,name=value'.
+
+    Example: colift new mine
     """
     files = write_template(folder) if source is None else write_from(folder, source)
     for name in files:

@@ -13,7 +13,8 @@ from colift.base.errors import InputError
 from colift.base.registry import STANDARD_SUITE
 from colift.benchmark.channels import CHANNELS, Channel, make_channel
 from colift.benchmark.execution.pool import JOBS, local_pool
-from colift.cli.completion import behaviours, channels, policies, robots, suites
+from colift.benchmark.rendering.layout import SUFFIXES, Layout, find_layout
+from colift.cli.completion import behaviours, channels, layouts, policies, robots, suites
 from colift.cli.remedies import naming, opened
 
 # The engine takes a second to import: not for a help text or a completion.
@@ -28,6 +29,13 @@ MOST: Final = 100_000
 
 LATENCY_OPTION: Final = typer.Option(metavar="S", help="Age of the robot's data, in seconds.")
 PERIOD_OPTION: Final = typer.Option(metavar="S", help="Time between two decisions, in seconds.")
+
+LAYOUT_OPTION: Final = typer.Option(
+    "--for",
+    metavar="column|page|slide",
+    help="Size of figures: a column (3.5 inches), a page (7 inches) or a slide (16:9).",
+    autocompletion=layouts,
+)
 
 PolicyName = Annotated[
     str,
@@ -56,6 +64,14 @@ Recordings = Annotated[
         metavar="CSV",
         help="Recorded human motion instead of a suite: a file with the columns trial,t_s,z_m, or "
         "the folder of a session of 'colift play'.",
+    ),
+]
+AsTheyWere = Annotated[
+    bool,
+    typer.Option(
+        "--as-recorded",
+        help="Play --recordings at their own height and pace, those that the robot's arms reach; "
+        "default: scaled to 0.20 m and slowed down.",
     ),
 ]
 RobotName = Annotated[
@@ -113,6 +129,7 @@ Dask = Annotated[
     str | None,
     typer.Option(metavar="URL", help="Dask scheduler of a cluster to use: tcp://host:8786."),
 ]
+LayoutName = Annotated[str, LAYOUT_OPTION]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of text.")]
 
 
@@ -140,11 +157,13 @@ def chosen_suite(
     recordings: Path | None,
     behaviours: Sequence[str] | None = None,
     robot: str | None = None,
+    *,
+    as_recorded: bool = False,
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
     With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with
-    that.
+    that. Recordings are scaled and slowed down unless ``as_recorded``.
 
     Raises
     ------
@@ -154,6 +173,8 @@ def chosen_suite(
     from colift.benchmark.suites.suite import make_suite
 
     if recordings is None:
+        if as_recorded:
+            raise InputError("--as-recorded needs --recordings: other lifts have one form")
         suite = make_suite(name or STANDARD_SUITE)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
@@ -167,13 +188,49 @@ def chosen_suite(
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
     from colift.benchmark.real_lifts.suites import real_lifts
 
-    lifts = real_lifts(recordings)
+    lifts = real_lifts(recordings, as_recorded=as_recorded, robot=robot)
+    report_notes(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
 
 
+def check_figure(path: Path | None) -> None:
+    """Refuse a file of a figure that cannot be written, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If its suffix is none of a figure, or as :func:`check_output`.
+    """
+    if path is not None and path.suffix not in SUFFIXES:
+        known = ", ".join(SUFFIXES)
+        raise InputError(f"cannot write {path}: its suffix must be one of {known}")
+    check_output(path)
+
+
+def chosen_layout(text: str) -> Layout:
+    """Return the layout of the option ``--for``.
+
+    Raises
+    ------
+    InputError
+        If there is no such layout.
+    """
+    with naming("--for"):
+        return find_layout(text)
+
+
+def report_notes(recordings: Path) -> None:
+    """Report on stderr the licence and the citation that a file of recordings states."""
+    from colift.agents.humans.recording_notes import notes_of
+
+    text = "" if recordings.is_dir() else notes_of(recordings).text()
+    if text:
+        print(f"{recordings.name}: {text}", file=sys.stderr)
+
+
 def report_left_out(source: str, left_out: Mapping[str, str]) -> None:
-    """Report on stderr the lifts of a session that do not count, with the reasons."""
+    """Report on stderr the lifts of a source that do not count, with the reasons."""
     for name, reason in left_out.items():
         print(f"{source}: {name} does not count: {reason}", file=sys.stderr)
 

@@ -5,10 +5,12 @@ from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 from colift.benchmark.execution.progress import workers
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.tables.printing import left, show, table
 from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import AsJson, Jobs, seed_range, try_folder
+from colift.cli.options import AsJson, Jobs, LayoutName, chosen_layout, seed_range, try_folder
+from colift.cli.remedies import naming
 from rich.console import RenderableType
 
 if TYPE_CHECKING:
@@ -28,23 +30,42 @@ def paper(
     ] = "1000:1020",
     jobs: Jobs = None,
     trials: Annotated[int, typer.Option(metavar="N", help="Learning trials.", min=1)] = 60,
+    blend: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME=VALUE,...",
+            help="Parameters of blend, from 'colift list blend', such as forgetting=0.95.",
+        ),
+    ] = "",
+    layout: LayoutName = PAGE.name,
     as_json: AsJson = False,
 ) -> None:
-    """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values."""
+    """Reproduce the paper: Table I, figures 4 to 9 and its claims, beside the published values.
+
+    Example: colift paper --seeds 4000:4010 --trials 20 --out paper
+    """
     # The report needs matplotlib, which is slow to load.
-    from colift.benchmark.paper.evidence import Effort, collect_evidence, lift_count
+    from colift.benchmark.paper.evidence import (
+        Effort,
+        blend_parameters,
+        collect_evidence,
+        lift_count,
+    )
     from colift.benchmark.paper.report import claims_json, make_report, write_report
     from colift.benchmark.suites.suite import make_suite
 
     suite = make_suite("paper-v1").with_seeds(*seed_range(seeds))
     effort = Effort(learning_trials=trials)
+    with naming("--blend"):
+        blend_parameters(blend)
+    size = chosen_layout(layout)
     try_folder("--out", out)
     with (
         reported_interrupt("no report was written"),
         workers("paper", lift_count(suite, effort), jobs) as (pool, progress),
     ):
-        evidence = collect_evidence(suite, effort, executor=pool, progress=progress)
-    report = make_report(evidence)
+        evidence = collect_evidence(suite, effort, blend=blend, executor=pool, progress=progress)
+    report = make_report(evidence, size)
     write_report(report, out)
     if as_json:
         print_json(claims_json(report))

@@ -65,6 +65,8 @@ def play(
     Your hand moves one end of a simulated table; a policy or a second person holds the other.
 
     'colift verify' verifies the saved lifts, 'colift run POLICY --recordings' plays them again.
+
+    Example: colift play blend
     """
     try:
         from colift.play.web.keeper import PlayConfig

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 from colift.base.errors import EvaluatorFault, InputError
-from colift.base.registry import own_policies
+from colift.base.registry import made_for
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.tables.printing import show, table
@@ -50,6 +50,8 @@ def practice(
 
     Each policy is saved when it is finished: the same command continues after an interruption. The
     references are played once, and again with --fresh.
+
+    Example: colift practice --suite robust-v1 --out practice
     """
     if not out.is_dir():
         raise InputError(f"cannot write to {out}: there is no such folder")
@@ -70,8 +72,8 @@ def practice(
 
 
 def _chosen(names: list[str] | None, season: Season) -> list[str]:
-    """Return the policies to evaluate in a season: the named ones, or all that play its task."""
-    own = own_policies(season.suite.scenarios[0].task.name)
+    """Return the policies to evaluate in a season: the named ones, or all made for its task."""
+    own = made_for(season.suite.scenarios[0].task.name)
     unknown = [name for name in names or () if name not in own]
     if unknown:
         raise InputError(

@@ -40,7 +40,10 @@ def list_jobs(
     ] = None,
     last: Annotated[int, typer.Option(metavar="N", min=1, help="Number of jobs.")] = 20,
 ) -> None:
-    """List the latest jobs, newest first, with their progress, or the reason for having no row."""
+    """List the latest jobs, newest first, with their progress, or the reason for having no row.
+
+    Example: colift queue list --board board
+    """
     known = {each: each for each in STATES}
     if state is not None and state not in known:
         raise InputError(f"--state {state!r} is none of {', '.join(STATES)}")
@@ -70,14 +73,20 @@ def list_jobs(
 
 @app.command()
 def log(job: JobNumber, board: ExistingBoard = BOARD) -> None:
-    """Print a job's log."""
+    """Print a job's log.
+
+    Example: colift queue log 3f2a --board board
+    """
     with _found(board, job, open_to_read) as (_, found):
         print((found.log or "No worker has begun this job.").rstrip())
 
 
 @app.command()
 def retry(job: JobNumber, why: Why, board: ExistingBoard = BOARD) -> None:
-    """Queue again a job that ended without an entry, for example after an evaluator fault."""
+    """Queue again a job that ended without an entry, for example after an evaluator fault.
+
+    Example: colift queue retry 3f2a --why 'the disk was full' --board board
+    """
     with _found(board, job) as (queue, found):
         queue.retry(found.id, LOCAL, why)
     print(f"{found.name} is queued again\nNext: colift worker --board {board} --once")
@@ -85,7 +94,10 @@ def retry(job: JobNumber, why: Why, board: ExistingBoard = BOARD) -> None:
 
 @app.command("cancel")
 def cancel_job(job: JobNumber, why: Why, board: ExistingBoard = BOARD) -> None:
-    """Take a job out of the queue, even while it is evaluated; 'retry' puts it back."""
+    """Take a job out of the queue, even while it is evaluated; 'retry' puts it back.
+
+    Example: colift queue cancel 3f2a --why 'sent by mistake' --board board
+    """
     with _found(board, job) as (queue, found):
         queue.cancel(found.id, LOCAL, why)
     print(f"{found.name} is cancelled")

@@ -5,10 +5,10 @@ from typing import Annotated
 
 import typer
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.base.errors import InputError
 from colift.benchmark.comparison.compare import compare
 from colift.benchmark.comparison.formatting import between
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.comparison.tables import behaviours_table, ranks_table
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references import ablation, sweep
 from colift.benchmark.references.ablation import VARIANTS, Ablation, variants
@@ -16,14 +16,21 @@ from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.references.claims import POLICY, RIVALS, PolicyClaim, claims
 from colift.benchmark.references.held_out import FIRST_SEED, held_out_suite
 from colift.benchmark.references.sweep import NAMES, Swept, human_human_rmse, lifts_to_play, timings
+from colift.benchmark.rendering.layout import PAGE
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.statistics import Estimate
-from colift.benchmark.suites.suite import recorded_suite
+from colift.benchmark.suites.suite import Suite, recorded_suite
 from colift.benchmark.tables.printing import show, table
 from colift.benchmark.training.anticipation import LIFTS, ROUNDS, learn_anticipation
-from colift.cli.options import Jobs, check_new_file, check_output
+from colift.cli.options import (
+    Jobs,
+    LayoutName,
+    check_figure,
+    check_new_file,
+    chosen_layout,
+    report_notes,
+)
 from colift.cli.remedies import naming
-from colift.cli.tables.comparison import behaviours_table, ranks_table
 from colift.cli.tables.recordings import show_recordings
 from rich.table import Table
 
@@ -51,8 +58,11 @@ def references(
     recordings: RecordedLifts = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
-    suite = held_out_suite(people, each, seed) if recordings is None else recorded_suite(recordings)
+    """Compare the best policies with the references on drawn subjects, and test their claims.
+
+    Example: colift references --people 4 --each 1
+    """
+    suite = held_out_suite(people, each, seed) if recordings is None else _recorded(recordings)
     specs = {name: PolicySpec(text=name) for name in (POLICY, *RIVALS)}
     beside = suite_references(suite)
     total = episodes_to_play(len(specs), suite, references=len(beside))
@@ -67,6 +77,11 @@ def references(
     show(_claims_table(found))
     if not all(claim.holds for claim in found):
         raise typer.Exit(1)
+
+
+def _recorded(recordings: Path) -> Suite:
+    report_notes(recordings)
+    return recorded_suite(recordings)
 
 
 def _claims_table(found: tuple[PolicyClaim, ...]) -> Table:
@@ -100,10 +115,13 @@ def ablate_policies(
     ] = None,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
+    """Measure the error of anticipate without each of its parts, on drawn subjects.
+
+    Example: colift ablate --people 4 --each 1
+    """
     suites = [held_out_suite(people, each)]
     if recordings is not None:
-        suites.append(recorded_suite(recordings))
+        suites.append(_recorded(recordings))
     total = ROUNDS * lifts + (1 + len(VARIANTS)) * sum(suite.size for suite in suites)
     with workers("ablation", total, jobs) as (pool, progress):
         for suite in suites:
@@ -150,16 +168,19 @@ def sweep_rates(
     out: Annotated[
         Path | None,
         typer.Option(
-            metavar="FILE.png",
-            help="Figure; its numbers go to a .json file beside it.",
+            metavar="FILE",
+            help="Figure (.png, .svg, .pdf); its numbers go to a .json file beside it.",
         ),
     ] = None,
+    layout: LayoutName = PAGE.name,
     jobs: Jobs = None,
 ) -> None:
-    """``colift references``, ``ablate`` and ``sweep``: the best policies on drawn subjects."""
-    if out is not None and out.suffix != ".png":
-        raise InputError(f"--out must end in .png, got {out}")
-    check_output(out)
+    """Measure the best policies at other latencies and control periods, on drawn subjects.
+
+    Example: colift sweep --people 4 --each 1 --out sweep.png
+    """
+    check_figure(out)
+    size = chosen_layout(layout)
     if out is not None:
         with naming("--out", hint="the numbers go to a .json file beside the picture"):
             check_new_file(out.with_suffix(".json"))
@@ -170,9 +191,12 @@ def sweep_rates(
     show(_sweep_table(swept, human_human, suite.name))
     if out is not None:
         # matplotlib is slow to load.
-        from colift.benchmark.references.sweep_picture import sweep_figure, sweep_json
+        from colift.benchmark.references.sweep_figure import sweep_figure, sweep_json
+        from colift.benchmark.rendering.figures import drawn_for, write_figure
 
-        sweep_figure(swept, human_human, "What a fresher or a faster robot gains").savefig(out)
+        with drawn_for(size):
+            figure = sweep_figure(swept, human_human, size)
+        write_figure(out, figure, "What a fresher or a faster robot gains")
         out.with_suffix(".json").write_text(sweep_json(swept, human_human))
         print(f"written: {out}")
 

@@ -58,14 +58,20 @@ def _decision(
 
 
 app.command(
-    "withdraw", help="Take a row out of the ranking at its submitter's request; it stays visible."
+    "withdraw",
+    help="Take a row out of the ranking at its submitter's request; it stays visible.\n\n"
+    "Example: colift row withdraw mine --why 'a better one is coming' --by Ada --board board",
 )(_decision(Decisions.withdraw, "withdrawn", ranked=True))
-app.command("remove", help="Take a row out of the ranking as the maintainer; it stays visible.")(
-    _decision(Decisions.remove, "removed from the ranking", ranked=True)
-)
-app.command("reinstate", help="Return a withdrawn or removed row to the ranking.")(
-    _decision(Decisions.reinstate, "reinstated", ranked=False)
-)
+app.command(
+    "remove",
+    help="Take a row out of the ranking as the maintainer; it stays visible.\n\n"
+    "Example: colift row remove mine --why 'it read the clock' --by Ada --board board",
+)(_decision(Decisions.remove, "removed from the ranking", ranked=True))
+app.command(
+    "reinstate",
+    help="Return a withdrawn or removed row to the ranking.\n\n"
+    "Example: colift row reinstate mine --why 'it did not' --by Ada --board board",
+)(_decision(Decisions.reinstate, "reinstated", ranked=False))
 
 
 @app.command()
@@ -77,7 +83,10 @@ def rescore(
     board: ExistingBoard = BOARD,
     jobs: Jobs = None,
 ) -> None:
-    """Evaluate a row's submission again, for example after a run on an overloaded machine."""
+    """Evaluate a row's submission again, for example after a run on an overloaded machine.
+
+    Example: colift row rescore mine --why 'the machine was overloaded' --board board
+    """
     with (
         _row_of(board, row, season) as (place, found),
         local_pool(jobs) as pool,

@@ -9,6 +9,7 @@ from colift.cli.options import (
     LATENCY_OPTION,
     PERIOD_OPTION,
     AsJson,
+    AsTheyWere,
     Behaviours,
     ChannelName,
     Dask,
@@ -31,6 +32,7 @@ def run(
     behaviour: Behaviours = None,
     seeds: Seeds = None,
     recordings: Recordings = None,
+    as_recorded: AsTheyWere = False,
     robot: RobotName = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
@@ -50,16 +52,18 @@ def run(
     ] = False,
     as_json: AsJson = False,
 ) -> None:
-    """Evaluate a policy on a suite, and compare it with the human-human baseline.
+    """Evaluate a policy on a suite, and compare it with two people.
 
     With --out, each lift is saved when it is finished, and an interrupted run can be resumed.
+
+    Example: colift run blend --suite quick-v1 --out bundle
     """
     # The engine takes a second to import: not for a help text or a completion.
     from colift.cli.evaluation import Bundle, evaluate
 
-    episodes = chosen_suite(suite, seeds, recordings, behaviour, robot).with_timing(
-        latency, control_period
-    )
+    episodes = chosen_suite(
+        suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded
+    ).with_timing(latency, control_period)
     network = chosen_channel(channel)
     bundle = Bundle(out, force=force, resume=resume)
     bundle.check()

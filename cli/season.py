@@ -3,7 +3,7 @@
 from typing import Annotated
 
 import typer
-from colift.base.registry import own_policies
+from colift.base.registry import made_for
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import reference_label
@@ -29,13 +29,16 @@ def begin(
     ] = None,
     own: Annotated[bool, typer.Option(help="Queue colift's own policies, for comparison.")] = True,
 ) -> None:
-    """Begin a season with a new secret; earlier rows stay in their own table."""
+    """Begin a season with a new secret; earlier rows stay in their own table.
+
+    Example: colift season begin autumn --suite agree-v1 --board board
+    """
     with opened_board(board, new=True) as opened:
         season = opened.new_season(name, suite)
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
-            names = own_policies(season.suite.scenarios[0].task.name)
+            names = made_for(season.suite.scenarios[0].task.name)
             jobs = [Queue(opened).enqueue_builtin(builtin_entrant(each)) for each in names]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")
@@ -43,7 +46,10 @@ def begin(
 
 @app.command()
 def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None) -> None:
-    """Play the references on a season's hidden lifts: the board shows them beside the rows."""
+    """Play the references on a season's hidden lifts: the board shows them beside the rows.
+
+    Example: colift season references autumn --board board
+    """
     with opened_board(board) as opened:
         season = opened.season_of(name)
         secrets = opened.store.secrets(name)
@@ -62,7 +68,10 @@ def references(name: NewSeason, board: ExistingBoard = BOARD, jobs: Jobs = None)
 
 @app.command()
 def reveal(name: NewSeason, why: Why = "the season is over", board: ExistingBoard = BOARD) -> None:
-    """Publish the secret of a finished season: anyone can then play its hidden lifts."""
+    """Publish the secret of a finished season: anyone can then play its hidden lifts.
+
+    Example: colift season reveal autumn --board board
+    """
     with opened_board(board) as opened:
         opened.reveal(name, LOCAL, why)
         print(f"the secret of season {name}: {opened.season_info(name).revealed}")

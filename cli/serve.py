@@ -17,6 +17,7 @@ from colift.cli.board_options import (
     BOARD,
     BoardFolder,
     BoardIsolation,
+    Title,
     open_patiently,
     opened_board,
 )
@@ -25,6 +26,7 @@ from colift.cli.partners import partners
 from colift.cli.signals import until_signalled
 from colift.leaderboard.logs import write_log
 from colift.leaderboard.queue import Quota
+from colift.leaderboard.views.page import NAME
 
 if TYPE_CHECKING:
     from fastapi import FastAPI
@@ -36,6 +38,7 @@ LIVE: Final = "live"
 
 def serve_board(
     board: BoardFolder = BOARD,
+    title: Title = NAME,
     host: Host = LOOPBACK,
     port: Port = 8000,
     workers: Annotated[
@@ -79,7 +82,10 @@ def serve_board(
         ),
     ] = 0,
 ) -> None:
-    """Serve a board on the web: its pages, its JSON interface, and uploads."""
+    """Serve a board on the web: its pages, its JSON interface, and uploads.
+
+    Example: colift serve --board board
+    """
     try:
         from colift.leaderboard.service.app import create_app
         from colift.leaderboard.service.documentation import Documentation
@@ -106,13 +112,14 @@ def serve_board(
         with listening_at(host, port) as listener:
             app = create_app(
                 board,
+                name=title,
                 contact=contact,
                 address=address,
                 quota=quota,
                 docs=documentation,
                 play=rooms > 0,
             )
-            sockets = _offer_rooms(app, board, rooms) if rooms else None
+            sockets = _offer_rooms(app, board, title, rooms) if rooms else None
             path = urlsplit(address).path if address else root.rstrip("/")
             server = make_server(app, path, sockets)
             with running(command, workers):
@@ -120,7 +127,7 @@ def serve_board(
                 server.run(sockets=[listener])
 
 
-def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
+def _offer_rooms(app: "FastAPI", board: Path, title: str, rooms: int) -> "type[Protocol]":
     """Let visitors of a board lift with all policies; return the protocol of their sockets."""
     from colift.leaderboard.service.dependencies import PLAY
     from colift.play.web.app import create_play, mount_play
@@ -131,6 +138,7 @@ def _offer_rooms(app: "FastAPI", board: Path, rooms: int) -> "type[Protocol]":
     config = PlayConfig(
         folder=(board / LIVE).absolute(),
         policies=named,
+        name=title,
         descriptions=lines,
         rooms=rooms,
         strict=True,

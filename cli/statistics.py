@@ -48,6 +48,8 @@ def check_statistics(
     """Count how often intervals contain the true value, and how often ranks are wrong.
 
     Suites and boards are simulated, with people drawn anew for each; the true values are known.
+
+    Example: colift statistics --repetitions 200
     """
     total = repetitions * (len(SAMPLES) + len(BOARDS) * len(BOARD_SAMPLES))
     with (

@@ -75,6 +75,8 @@ def submit_policy(
 
     For a board in a folder, this command evaluates it; a board on the web has its own workers, and
     this command says so if none is there.
+
+    Example: colift submit mine --board board
     """
     count = checked_jobs(jobs)
     submission = open_submission(folder)

@@ -9,12 +9,12 @@ from colift.base.errors import InputError
 from colift.benchmark.channels import channel_name
 from colift.benchmark.comparison.formatting import between, digits
 from colift.benchmark.comparison.stored import Stored, read_stored
+from colift.benchmark.comparison.tables import policy_cell
 from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.tables.printing import Cell, left, show, table
 from colift.cli.bundles import mention_others
 from colift.cli.document import print_json
 from colift.cli.options import AsJson
-from colift.cli.tables.comparison import policy_cell
 
 NONE: Final = "none"
 
@@ -29,6 +29,8 @@ def summarise_bundles(
     """Print the results of policies on several suites: on each, the error relative to two people.
 
     There is no mean over suites, since they measure different things.
+
+    Example: colift summary bundle bundle-of-robust-v1
     """
     found: dict[tuple[str, str], Stored] = {}
     for folder in bundles:
@@ -37,7 +39,7 @@ def summarise_bundles(
         place = stored.policy.name, _column(stored)
         if place in found:
             raise InputError(
-                f"{folder} and {found[place].folder} are both of {place[0]} on {place[1]}"
+                f"{folder} and {found[place].origin} are both of {place[0]} on {place[1]}"
             )
         found[place] = stored
     if as_json:
@@ -49,8 +51,8 @@ def summarise_bundles(
             "RMSE divided by that of two people, on each suite",
             (left("policy"), *suites),
             _rows(found, suites),
-            caption="With 95 % intervals. Below 1 is better than the human-human baseline on the "
-            "same lifts. There is no mean over suites, since they measure different things.",
+            caption="With 95 % intervals. Below 1 is better than two people on the same lifts."
+            " There is no mean over suites, since they measure different things.",
         )
     )
 

@@ -1,5 +1,7 @@
 """``colift token``: the submitters of a board on the web."""
 
+import csv
+import sys
 from typing import Annotated
 
 import typer
@@ -16,15 +18,32 @@ Submitter = Annotated[str, typer.Argument(metavar="NAME", help="The submitter's 
 
 
 @app.command()
-def add(name: Submitter, board: BoardFolder = BOARD) -> None:
-    """Create a submitter's token and print it; it cannot be shown again."""
+def add(
+    names: Annotated[list[str], typer.Argument(metavar="NAME...", help="The submitters' names.")],
+    board: BoardFolder = BOARD,
+) -> None:
+    """Create submitters' tokens and print them; they cannot be shown again.
+
+    The token of one submitter is printed alone, those of several as CSV: name,token.
+
+    Example: colift token add ada --board board
+    """
     with opened_board(board, new=True) as opened:
-        print(Tokens(opened).add(name))
+        made = Tokens(opened).add_all(names)
+    if len(names) == 1:
+        print(made[names[0]])
+        return
+    rows = csv.writer(sys.stdout, lineterminator="\n")
+    rows.writerow(("name", "token"))
+    rows.writerows(made.items())
 
 
 @app.command()
 def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
-    """Revoke a submitter's token, effective at once."""
+    """Revoke a submitter's token, effective at once.
+
+    Example: colift token revoke ada --board board
+    """
     with opened_board(board) as opened:
         Tokens(opened).revoke(name)
     print(f"the token of {name} is revoked")
@@ -32,7 +51,10 @@ def revoke(name: Submitter, board: ExistingBoard = BOARD) -> None:
 
 @app.command("list")
 def list_tokens(board: ExistingBoard = BOARD) -> None:
-    """List the submitters, with the dates of their tokens."""
+    """List the submitters, with the dates of their tokens.
+
+    Example: colift token list --board board
+    """
     with opened_board(board, open_to_read) as opened:
         found = Tokens(opened).all()
     rows = (

@@ -11,6 +11,7 @@ from colift.base.errors import InputError
 from colift.base.registry import SUITES, own_entries
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.progress import job_bar
+from colift.benchmark.rendering.layout import PAGE, Layout
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import show
 from colift.benchmark.tasks.level.task import LEVEL
@@ -19,7 +20,7 @@ from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import Device, Jobs
+from colift.cli.options import Device, Jobs, LayoutName, chosen_layout
 from colift.cli.remedies import argument
 from colift.cli.settings import with_settings
 from colift.cli.tables.training import training_table
@@ -80,17 +81,32 @@ def add(
         Whether it computes with JAX, on one device; else it plays lifts in worker processes.
     """
 
-    def train(out: Path, seeds: int, settings: Any, jobs: int | None) -> None:
+    def train(out: Path, seeds: int, settings: Any, jobs: int | None, layout: str) -> None:
+        size = chosen_layout(layout)
         module, _, function = place.partition(":")
         trainer = getattr(import_module(f"colift.benchmark.training.{module}"), function)
-        train_all(name, settings, seeds, out, total(settings), jobs, trainer)
+        train_all(name, settings, seeds, out, total(settings), jobs, trainer, size)
 
-    def on_device(*, out: Out, seeds: Seeds = 1, settings: Any, device: Device = None) -> None:
+    def on_device(
+        *,
+        out: Out,
+        seeds: Seeds = 1,
+        settings: Any,
+        device: Device = None,
+        layout: LayoutName = PAGE.name,
+    ) -> None:
         require_jax(device)
-        train(out, seeds, settings, 1)
+        train(out, seeds, settings, 1, layout)
 
-    def in_workers(*, out: Out, seeds: Seeds = 1, settings: Any, jobs: Jobs = None) -> None:
-        train(out, seeds, settings, jobs)
+    def in_workers(
+        *,
+        out: Out,
+        seeds: Seeds = 1,
+        settings: Any,
+        jobs: Jobs = None,
+        layout: LayoutName = PAGE.name,
+    ) -> None:
+        train(out, seeds, settings, jobs, layout)
 
     chosen = on_device if jax else in_workers
     chosen.__doc__ = meaning
@@ -106,7 +122,7 @@ add(
     "elite",
     "lifts",
     meaning="Train a small network by the cross-entropy method, in the engine, in minutes, with "
-    "NumPy.",
+    "NumPy.\n\nExample: colift train cem --out trained",
     total=lambda settings: settings.generations * settings.lifts,
     jax=False,
 )
@@ -116,15 +132,25 @@ add(
     ApgSettings,
     *ApgSettings.__dataclass_fields__,
     meaning="Train a recurrent network by gradients through whole lifts of the twin (extra: "
-    "train).",
+    "train).\n\nExample: colift train apg --task ball --out trained",
     task={"help": "Task: level, or one that is stated by rules."},
 )
 
 
 def train_all(
-    trainer: str, settings: Any, seeds: int, out: Path, total: int, jobs: int | None, train: Train
+    trainer: str,
+    settings: Any,
+    seeds: int,
+    out: Path,
+    total: int,
+    jobs: int | None,
+    train: Train,
+    layout: Layout,
 ) -> None:
-    """Train all seeds and print their table; finished ones are not trained again."""
+    """Train all seeds, draw their curves and print their table.
+
+    Finished ones are not trained again.
+    """
     if not 1 <= seeds <= MOST_SEEDS:
         raise InputError(f"--seeds must be 1 to {MOST_SEEDS}, got {seeds}")
     courses = []
@@ -138,7 +164,14 @@ def train_all(
                     train(settings, course, progress=progress, **workers)
                 courses.append(course)
     show(training_table(trainer, courses))
-    print(f"written: {write_summary(courses)}")
+    # matplotlib is slow to load.
+    from colift.benchmark.rendering.figures import drawn_for, write_all
+    from colift.benchmark.training.curves_figure import curves_figure
+
+    with drawn_for(layout):
+        figure = curves_figure(courses, layout)
+    write_all(out, "curves", figure, f"Trained by {trainer}: error on the validation lifts")
+    print(f"written: {write_summary(courses)}, and the curves: {out / 'curves.svg'}, .pdf, .png")
     best = min(courses, key=lambda course: course.curve[-1].rmse_mm).policy
     on = _suite_option(getattr(settings, "task", LEVEL.name))
     print(f"Next: colift run {argument(best)}{on}, or colift check {argument(best)}{on}")

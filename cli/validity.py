@@ -29,7 +29,7 @@ from colift.benchmark.validity.sources import Source, sources_of
 from colift.cli.completion import suites as suite_names
 from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import AsJson, Jobs, report_left_out
+from colift.cli.options import AsJson, Jobs, report_left_out, report_notes
 from colift.cli.tables.recordings import recordings_json, show_recordings
 from colift.cli.tables.validity import MEANINGS, heading, ratios_table, source_table
 from colift.leaderboard.practice.shipped_scores import shipped_scores
@@ -67,12 +67,24 @@ def validity(
             autocompletion=suite_names,
         ),
     ] = None,
+    as_recorded: Annotated[
+        bool,
+        typer.Option(
+            "--as-recorded",
+            help="Play recordings at their own height and pace, beside the recorded pairs "
+            "themselves where the file has both ends; default: scaled to 0.20 m and slowed down.",
+        ),
+    ] = False,
     jobs: Jobs = None,
     as_json: AsJson = False,
 ) -> None:
-    """Judge how well suites predict the order and the size of scores on real lifts."""
-    sources = sources_of(data)
-    for real in sources:
+    """Judge how well suites predict the order and the size of scores on real lifts.
+
+    Example: colift validity lifts.csv
+    """
+    sources = sources_of(data, as_recorded=as_recorded)
+    for path, real in zip(data, sources, strict=True):
+        report_notes(path)
         report_left_out(real.name, real.left_out)
     judged = [make_suite(name) for name in dict.fromkeys(suite or SUITES)]
     for each in judged:

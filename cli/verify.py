@@ -20,6 +20,7 @@ from colift.benchmark.execution.pool import checked_jobs, process_pool
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.real_lifts.session_folder import is_session, lift_folders, sessions_in
+from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.results.headline import headline
 from colift.benchmark.tables.printing import counted, show
 from colift.benchmark.verification import ACTIONS_FROM_LOG, PROVES, UNPROVEN, Verdict, verify
@@ -61,6 +62,8 @@ def verify_bundle(
 
     Nothing in the bundle is trusted, and no policy is run. Exit code 0: verified; 1: refused, with
     the file, the lift and the first step that differ.
+
+    Example: colift verify bundle
     """
     count = checked_jobs(jobs)
     if rescore is not None:
@@ -166,7 +169,13 @@ def _count(verified: int, lifts: int) -> str:
 
 def _write(folder: Path, verdict: Verdict) -> None:
     if verdict.run is not None and verdict.results is not None:
-        write_bundle(folder, verdict.run, verdict.results.plain(), platform=verdict.platform)
+        write_bundle(
+            folder,
+            verdict.run,
+            verdict.results.plain(),
+            human_human=verdict.results.baselines.get(HUMAN_HUMAN),
+            platform=verdict.platform,
+        )
 
 
 def _proof(bundle: Path, verdict: Verdict, run: Run) -> str:

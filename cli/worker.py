@@ -41,6 +41,8 @@ def worker(
 
     Any number of workers may share a board. If one is killed, another takes over its job. A worker
     waits for a database server that is away.
+
+    Example: colift worker --board board --jobs 4
     """
     with until_signalled("ended; an unfinished evaluation is back in the queue"):
         if verbose:

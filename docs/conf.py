@@ -7,6 +7,8 @@ from pathlib import Path
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "extensions"))
 
+from board_look import ICON, read_variables  # noqa: E402  # It stands beside the extensions.
+
 project = "colift"
 author = "The colift developers"
 project_copyright = author
@@ -22,6 +24,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "array_types",
     "attributes",
+    "catalogue",
     "commands",
     "environment",
     "fields",
@@ -29,6 +32,7 @@ extensions = [
     "http_api",
     "metrics_table",
     "json_schema",
+    "moving",
     "recorded",
     "rooms",
     "session",
@@ -40,13 +44,17 @@ nitpick_ignore_regex = [
     # The arrays behind a state of the twin have no page.
     ("py:class", r"colift\.benchmark\.twin\..*"),
     ("py:class", r"colift\.benchmark\.twin_environment\.(running|pool)\..*"),
+    # What an inspection consists of.
+    ("py:class", r"colift\.benchmark\.(inspection|results)\..*"),
     ("py:.*", "(?!colift).*"),  # Other projects' sites cannot be asked offline.
     ("py:(class|obj)", r"colift\.agents\.rules\.functions\..*"),  # Types of numbers and arrays.
 ]
 # Parts of others, without pages.
 nitpick_ignore = [
+    ("py:func", "felt_action"),
+    ("py:class", "colift.benchmark.comparison.compare.Comparison"),
+    ("py:class", "colift.benchmark.comparison.ranking.RankedPolicy"),
     ("py:class", "colift.benchmark.episode.bodies.Bodies"),
-    ("py:class", "colift.benchmark.results.goals.GoalScores"),
     ("py:class", "colift.benchmark.world.bullet_world.BulletWorld"),
     ("py:class", "colift.benchmark.world.table.Table"),
 ]
@@ -85,8 +93,15 @@ sphinx_gallery_conf = {
 
 html_math_renderer = "formulas"
 html_theme = "furo"
-html_title = "colift"
+html_theme_options = {
+    "light_css_variables": read_variables(0),
+    "dark_css_variables": read_variables(1),
+}
+html_title = f"colift {version}"
+html_logo = html_favicon = str(ICON)
 html_static_path = ["static"]
 html_css_files = ["site.css"]
+html_js_files = [("site.js", {"defer": "defer"})]
+html_search_scorer = str(DOCS / "static" / "scorer.js")
 html_copy_source = False
 html_show_sphinx = False

@@ -14,8 +14,11 @@ PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
 QUESTIONS = ROOT / "leaderboard" / "pages" / "templates" / "open.md"
 
 MINUS = "\N{MINUS SIGN}"
-INCLUDED = r"^```\{literalinclude\} /figures/(\S+)$"
+INCLUDED = r"^```\{(?:literal)?include\} (?:/|\.\./)figures/(\S+)$"
+TABLE = r"^```\{result-table\} (\S+)$"
 PICTURE = r"!\[[^\]]*\]\([^)]*figures/([^)]+)\)"
+MOVING = r"^(?:```\{moving\}|:still:) /figures/(\S+)$"
+EMBEDDED = r"(?:src|srcset)=\"docs/figures/([^\"]+)\""
 QUOTED = r"\{figure\}`([^|`]+)\|([^`]+)`"
 
 
@@ -25,9 +28,18 @@ def words(text):
 
 
 def shown(page):
-    """Return the names of the files of figures that a page shows."""
+    """Return the names of the files of figures that a page shows with a command of its own."""
     text = page.read_text()
-    return re.findall(INCLUDED, text, re.MULTILINE) + re.findall(PICTURE, text)
+    return [
+        name
+        for pattern in (INCLUDED, PICTURE, MOVING, EMBEDDED)
+        for name in re.findall(pattern, text, re.MULTILINE)
+    ]
+
+
+def tables(page):
+    """Return the names of the figures whose tables a page shows; each table has its command."""
+    return re.findall(TABLE, page.read_text(), re.MULTILINE)
 
 
 def printed(name):
@@ -58,12 +70,14 @@ def test_a_page_names_the_command_of_each_figure_that_it_shows(page):
     for file in shown(page):
         (figure,) = (each for each in FIGURES.values() if file in each.files)
         remade = f"colift figures --remake {figure.name}"
-        assert words(figure.command) in text or remade in text, f"{page.name} shows {file}"
+        named = words(figure.command) in text or remade in text or figure.name in tables(page)
+        assert named, f"{page.name} shows {file}"
 
 
 def test_every_figure_is_shown_or_quoted_somewhere():
     used = {file for page in PAGES for file in shown(page)}
     quoted = {name for page in PAGES for name, _ in re.findall(QUOTED, page.read_text())}
+    quoted.update(name for page in PAGES for name in tables(page))
     assert [
         name
         for name, figure in FIGURES.items()

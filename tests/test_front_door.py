@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
 from importlib.metadata import version
 
 import colift
@@ -11,6 +12,8 @@ from colift import colift_v0
 from colift.agents.policies.blend import Blend
 from colift.base.errors import InputError
 from pettingzoo.test import api_test, parallel_api_test
+
+from tests.printed import assert_neutral
 
 pytestmark = pytest.mark.smoke
 
@@ -129,10 +132,7 @@ def test_workers_give_the_same(copied):
 def test_what_it_prints_and_holds(copied):
     text = str(copied)
     assert text.startswith("copy on quick-v1")
-    assert all(
-        name in text
-        for name in ("smooth", "pause", "jerky", "changing_goal", "human-human baseline")
-    )
+    assert all(name in text for name in ("smooth", "pause", "jerky", "changing_goal", "two people"))
     assert f"RMSE {copied.rmse_mm:.2f} mm" in text
     assert not any(line.endswith(" ") for line in text.splitlines())
     low, high = copied.rmse_mm_ci95
@@ -148,13 +148,72 @@ def test_its_rows_and_its_frame(copied):
     assert list(frame["subject"]) == 4 * ["draw-1", "draw-2", "draw-3"]
     assert frame["rmse_mm"].mean() == pytest.approx(copied.rmse_mm)
     assert len(copied.rows()) == len(frame) == 12
+    ratios = frame["rmse_mm"] / frame["human_human_rmse_mm"]
+    assert np.exp(np.log(ratios).mean()) == pytest.approx(copied.vs_human)
+
+
+@pytest.fixture(scope="module")
+def bundle(copied, tmp_path_factory):
+    from colift.benchmark.bundle import write_bundle
+    from colift.benchmark.results.baselines import HUMAN_HUMAN
+
+    folder = tmp_path_factory.mktemp("bundles") / "copy"
+    human_human = copied.results.baselines[HUMAN_HUMAN]
+    write_bundle(folder, copied.run, copied.results.plain(), human_human=human_human)
+    return folder
+
+
+def test_a_bundle_is_loaded_as_it_was_evaluated(copied, bundle):
+    loaded = colift.load(bundle)
+    assert loaded.results.plain() == copied.results.plain()
+    assert loaded.rows() == copied.rows()
+    assert str(loaded) == str(copied)
+
+
+def test_an_evaluation_and_its_bundle_are_inspected_alike(copied, bundle):
+    found, stored = colift.inspect(copied), colift.inspect(str(bundle), jobs=2)
+    worst = max(copied.run.episodes, key=lambda episode: episode.scores["rmse_mm"])
+    assert found.worst[0].episode is worst
+    assert repr(found).startswith("<Inspection of copy on quick-v1: worst smooth/draw-2 seed 0")
+    *same, _ = str(found).rpartition("Suite digest")
+    assert str(stored).startswith(same[0])
+    assert f"claims of the bundle {bundle}" in " ".join(str(stored).split())
+    page = found._repr_html_()
+    assert page.count('<img style="max-width: 100%" src="data:image/png;base64,') == 3
+    assert "copy on quick-v1: RMSE 21.03 mm" in page
+    assert "<table" in page
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        (3, "3 is no evaluation: give what colift.evaluate"),
+        ("nowhere", "nowhere: no such folder"),
+    ],
+)
+def test_what_cannot_be_inspected_is_refused_in_words(given, told):
+    with pytest.raises(InputError, match=told):
+        colift.inspect(given)
 
 
 def test_what_a_notebook_shows(copied):
     page = copied._repr_html_()
-    assert page.startswith("<svg")
-    assert "two humans" in page
-    assert "<pre>copy on quick-v1" in page
+    root = ET.fromstring(f"<div>{page.replace('<br>', '<br/>')}</div>")
+    assert [each.tag.rpartition("}")[2] for each in root] == ["svg", "table", "p", "p"]
+    words = " ".join(root.itertext())
+    assert "two humans" not in words
+    assert "copy on quick-v1" in words
+    assert f"RMSE {copied.rmse_mm:.2f} mm (95 % interval" in words
+    bodies = [[*row.itertext()] for row in root.iter("tr")]
+    assert [row[0] for row in bodies] == [
+        "human",
+        "smooth",
+        "pause",
+        "jerky",
+        "changing_goal",
+        "all",
+    ]
+    assert_neutral(page)
 
 
 def test_the_text_in_jupyter_is_that_of_a_terminal(copied, monkeypatch):

@@ -149,7 +149,7 @@ def find_stream(lsl: Any, place: str) -> Any:
         raise InputError(
             f"no stream {place!r} on the network within {SEARCHES * RESOLVE_TIME:g} s; found: "
             f"{known or 'none'}. If multicast does not get through, name the sender "
-            "in lsl_api.cfg (docs/guides/hardware.md)"
+            "in lsl_api.cfg (docs/guides/capture.md)"
         )
     if len(found) == 1:
         return found[0]

@@ -17,12 +17,12 @@ limit               people                                      artefacts
 =================== =========================================== ================================
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Final, NamedTuple
 
 import numpy as np
 from colift.agents.humans.recordings import LEAST_MOVEMENT, LONGEST, Recording
-from colift.agents.humans.treatment import shape_of
+from colift.agents.humans.shape import shape_of
 from numpy.typing import NDArray
 
 FASTEST: Final = 10.0
@@ -72,6 +72,10 @@ class Fault(NamedTuple):
     text: str
 
 
+Check = Callable[[Series, Series], Fault | None]
+"""A check of times [s] and heights [m], each of shape (n,)."""
+
+
 def fault(times: Series, heights: Series) -> Fault | None:
     """Return the first artefact in the samples of a lift; None if there is none.
 
@@ -82,12 +86,18 @@ def fault(times: Series, heights: Series) -> Fault | None:
     heights
         Height at each time [m], shape (n,); NaN where it was not seen.
     """
+    return first_fault(CHECKS, times, heights)
+
+
+def first_fault(checks: Iterable[Check], times: Series, heights: Series) -> Fault | None:
+    """Return the first artefact that some checks find; None if they find none."""
     with np.errstate(over="ignore", invalid="ignore"):  # Numbers near the largest are refused, too.
-        return next(filter(None, (check(times, heights) for check in CHECKS)), None)
+        return next(filter(None, (check(times, heights) for check in checks)), None)
 
 
-def _gap_in_heights(times: Series, heights: Series) -> Fault | None:
-    unseen = np.isnan(heights)
+def gap(times: Series, values: Series, column: str) -> Fault | None:
+    """Return the first gap in the values of a column, NaN where there is none; None without one."""
+    unseen = np.isnan(values)
     if not unseen.any():
         return None
     first = int(unseen.argmax())
@@ -95,9 +105,14 @@ def _gap_in_heights(times: Series, heights: Series) -> Fault | None:
     many = "1 sample" if length == 1 else f"{length} samples"
     return Fault(
         first,
-        f"z_m is nan or empty in {many}, {times[first]:g} s to {times[first + length - 1]:g} s, "
-        f"must be a finite number (a marker that was not seen? {CUT})",
+        f"{column} is nan or empty in {many}, {times[first]:g} s to "
+        f"{times[first + length - 1]:g} s, must be a finite number (a marker that was not seen? "
+        f"{CUT})",
     )
+
+
+def _gap_in_heights(times: Series, heights: Series) -> Fault | None:
+    return gap(times, heights, "z_m")
 
 
 def _few(times: Series, heights: Series) -> Fault | None:
@@ -219,6 +234,11 @@ def _range(times: Series, heights: Series) -> Fault | None:
             int(np.abs(heights - np.median(heights)).argmax()),
             f"its heights span {span:g} m, must be at most {LARGEST:g} m (is z_m in metres?)",
         )
+    return None
+
+
+def _still(times: Series, heights: Series) -> Fault | None:
+    span = float(np.ptp(heights))
     if span < STILL:
         return Fault(
             0,
@@ -251,17 +271,18 @@ def _proportion(times: Series, heights: Series) -> Fault | None:
     )
 
 
-CHECKS: Final[tuple[Callable[[Series, Series], Fault | None], ...]] = (
+OF_HEIGHTS: Final[tuple[Check, ...]] = (_unseen, _units, _jump, _range)
+"""The checks of heights that need not be those of a lift; their times and gaps are checked."""
+
+CHECKS: Final[tuple[Check, ...]] = (
     _disorder,
     _gap_in_heights,
     _few,
     _rate,
     _hole,
     _duration,
-    _unseen,
-    _units,
-    _jump,
-    _range,
+    *OF_HEIGHTS,
+    _still,
     _proportion,
 )
 """The checks in an order in which each may assume what the earlier ones found to be right."""

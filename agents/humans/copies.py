@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from colift.agents.humans.recorded import PEAK
 from colift.agents.humans.recordings import Recording
-from colift.agents.humans.treatment import shape_of
+from colift.agents.humans.shape import shape_of
 from numpy.typing import NDArray
 
 ALIKE: Final = 0.001

@@ -1,17 +1,15 @@
-"""A CSV file of recorded lifts: its table, and the lifts that it holds."""
+"""The rows of a CSV file of recorded lifts."""
 
 import csv
 import io
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Final
+from typing import Final, NamedTuple
 
-import numpy as np
-from colift.agents.humans.artefacts import fault
-from colift.agents.humans.copies import first_copy
 from colift.agents.humans.foreign_files import foreign_format
-from colift.agents.humans.recordings import COLUMNS, PERSON, Recording
+from colift.agents.humans.recording_notes import without_notes
+from colift.agents.humans.recordings import BESIDE, COLUMNS, PERSON, PHASE
 from colift.base.errors import InputError
 from colift.base.text import decoded, read_bytes
 
@@ -19,7 +17,10 @@ LARGEST: Final = 256 * 1024 * 1024
 """Largest file [bytes]: some hours at 1000 Hz."""
 
 MISSING: Final = ("", "nan", "na", "n/a", "null", "none", "-", "--", "inf", "-inf")
-"""Texts, in any case, for the height of a marker that was not seen."""
+"""Texts, in any case, for the height of a marker that was not seen, or another missing value."""
+
+ALL: Final[tuple[str, ...]] = (*COLUMNS, PERSON, PHASE, *BESIDE)
+"""The columns that are read."""
 
 OTHER_NAMES: Final = {
     "trial": ("trial", "name", "lift", "take", "recording", "file", "id"),
@@ -28,90 +29,48 @@ OTHER_NAMES: Final = {
 }
 """Names, in lower case, that other programs give to the columns."""
 
-Sample = tuple[int, float, float]
-"""Line, time [s] and height [m]."""
+
+class Row(NamedTuple):
+    """A row: a sample of a trial."""
+
+    line: int
+    """Its number in the file."""
+    trial: str
+    person: str
+    """Empty if the file names none."""
+    phase: str
+    """Empty if the file names none."""
+    time: float
+    """[s]"""
+    height: float
+    """[m], NaN if the marker was not seen."""
+    beside: tuple[float, ...]
+    """The values of :data:`.BESIDE`, NaN where there is none."""
 
 
-def load_recordings(path: str | Path) -> tuple[Recording, ...]:
-    """Return the recordings of a CSV file with the columns ``trial,t_s,z_m``, in order.
-
-    A column ``person`` names the person of each trial: lifts of one person are one unit in
-    intervals and tests. Other columns are ignored. Heights [m] may have any origin within 10 m,
-    times [s] any rate from 10 Hz.
+def read_rows(path: Path) -> Iterator[Row]:
+    """Yield the rows of a file.
 
     Raises
     ------
     InputError
-        If the file cannot be read or has another format, a column is missing or there twice, a
-        value is not a number, a trial has an artefact of :mod:`.artefacts` or two persons, two
-        names are the same number, or two trials are the same lift. The message names the line and
-        the cure.
+        If the file cannot be read or has another format, a column is missing or there twice, or a
+        value is not a number. The message names the line and the cure.
     """
-    path = Path(path)
-    samples: dict[str, list[Sample]] = {}
-    people: dict[str, str] = {}
-    for trial, person, sample in _samples(path):
-        samples.setdefault(trial, []).append(sample)
-        if people.setdefault(trial, person) != person:
-            raise InputError(
-                f"{path}, line {sample[0]}: trial {trial!r:.80} is of person {person!r:.80}, and "
-                f"of {people[trial]!r:.80} before: a trial is one lift of one person"
-            )
-    if not samples:
-        raise InputError(f"{path}: no samples, needs rows of {','.join(COLUMNS)}")
-    _check_names(path, samples)
-    found = tuple(_recording(path, trial, people[trial], rows) for trial, rows in samples.items())
-    copy = first_copy(found)
-    if copy is not None:
-        one, other = (found[i].name for i in copy)
-        raise InputError(
-            f"{path}, line {samples[other][0][0]}: trial {other!r:.80} is the same lift as "
-            f"{one!r:.80}: keep one of them, since a copy would count as a further lift in "
-            "intervals and tests"
-        )
-    return found
-
-
-def _recording(path: Path, trial: str, person: str, rows: Sequence[Sample]) -> Recording:
-    lines, times, heights = zip(*rows, strict=True)
-    found = fault(np.array(times), np.array(heights))
-    if found is not None:
-        raise InputError(f"{path}, line {lines[found.sample]}: trial {trial!r:.80} {found.text}")
-    return Recording(name=trial, times=times, heights=heights, person=person)
-
-
-def _check_names(path: Path, samples: dict[str, list[Sample]]) -> None:
-    """Refuse names that are the same number, such as ``1`` and ``1.0``."""
-    numbers: dict[float, str] = {}
-    for trial, rows in samples.items():
-        try:
-            number = float(trial)
-        except ValueError:
-            continue
-        other = numbers.setdefault(number, trial)
-        if other != trial:
-            raise InputError(
-                f"{path}, line {rows[0][0]}: the trials {other!r:.80} and {trial!r:.80} are the "
-                "same number: write one lift's name in one form, or give two lifts different names"
-            )
-
-
-def _samples(path: Path) -> Iterator[tuple[str, str, Sample]]:
-    """Yield trial, person and sample of each row; the person is empty if there is no column."""
     data = read_bytes(path, LARGEST)
     name = foreign_format(data)
     if name:
         raise InputError(
             f"{path}: this is {name}, must be a CSV file with the columns {','.join(COLUMNS)}: "
-            "write the time [s] and the height [m] of one marker of the hand to such a file"
+            "'colift recordings FILE --out lifts.csv' makes one of files of motion capture"
         )
-    reader = csv.reader(io.StringIO(decoded(data, str(path)), newline=""))
+    text = without_notes(decoded(data, str(path)))
+    reader = csv.reader(io.StringIO(text, newline=""))
     rows = (row for row in reader if any(map(str.strip, row)))
     try:
         header = [column.strip() for column in next(rows, ())]
         _check_header(path, header)
-        places = [header.index(column) for column in COLUMNS]
-        who = header.index(PERSON) if PERSON in header else None
+        places = {name: header.index(name) for name in ALL if name in header}
         for row in rows:
             where = f"{path}, line {reader.line_num}"
             if any(map(str.strip, row[len(header) :])):
@@ -119,29 +78,52 @@ def _samples(path: Path) -> Iterator[tuple[str, str, Sample]]:
                     f"{where}: {len(row)} fields, must be {len(header)} as in the header (decimal "
                     "commas? write points, as in 0.25)"
                 )
-            trial, time, height = (row[i].strip() if i < len(row) else "" for i in places)
-            if not trial:
-                raise InputError(f"{where}: trial is empty, must name the trial")
-            seen = height.lower() not in MISSING
-            person = row[who].strip() if who is not None and who < len(row) else ""
-            yield (
-                trial,
-                person,
-                (
-                    reader.line_num,
-                    _number(time, "t_s", where),
-                    _number(height, "z_m", where) if seen else math.nan,
-                ),
-            )
+            fields = {name: row[i].strip() for name, i in places.items() if i < len(row)}
+            yield _row(reader.line_num, fields, where)
     except csv.Error as error:
         raise InputError(f"{path}, line {reader.line_num}: not a CSV file: {error}") from None
+
+
+def other_columns(path: Path) -> list[str]:
+    """Return the names of the columns that are not read.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read.
+    """
+    text = decoded(read_bytes(path, LARGEST), str(path))
+    rows = csv.reader(io.StringIO(text, newline=""))
+    header = next((row for row in rows if "".join(row).strip() and not row[0].startswith("#")), [])
+    return [name.strip() for name in header if name.strip() and name.strip() not in ALL]
+
+
+def _row(line: int, fields: Mapping[str, str], where: str) -> Row:
+    trial, time, height = COLUMNS
+    if not fields.get(trial):
+        raise InputError(f"{where}: trial is empty, must name the trial")
+    phase = fields.get(PHASE, "")
+    return Row(
+        line=line,
+        trial=fields[trial],
+        person=fields.get(PERSON, ""),
+        phase="" if phase.lower() in MISSING else phase,
+        time=_number(fields.get(time, ""), time, where),
+        height=_measured(fields, height, where),
+        beside=tuple(_measured(fields, column, where) for column in BESIDE),
+    )
+
+
+def _measured(fields: Mapping[str, str], column: str, where: str) -> float:
+    text = fields.get(column, "")
+    return math.nan if text.lower() in MISSING else _number(text, column, where)
 
 
 def _check_header(path: Path, header: Sequence[str]) -> None:
     needed = ",".join(COLUMNS)
     if not any(header):
         raise InputError(f"{path}: empty file, needs the columns {needed}")
-    for column in COLUMNS:
+    for column in (*COLUMNS, PHASE, *BESIDE):
         if header.count(column) > 1:
             raise InputError(
                 f"{path}: the column {column} is there {header.count(column)} times, must be there "
@@ -158,7 +140,7 @@ def _check_header(path: Path, header: Sequence[str]) -> None:
 def _hint(header: Sequence[str]) -> str:
     """Return the likely cause of a header without the columns; empty if there is none."""
     lower = [column.lower() for column in header]
-    if header[0].startswith(("#", "%", "//")):
+    if header[0].startswith(("%", "//")):
         return f" (is this a comment? the first line must be {','.join(COLUMNS)})"
     if len(header) == 1:
         mark = "semicolons" if ";" in header[0] else "tabs" if "\t" in header[0] else ""

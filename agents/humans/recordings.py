@@ -11,6 +11,22 @@ COLUMNS: Final = ("trial", "t_s", "z_m")
 PERSON: Final = "person"
 """A further column that a file can have: the name of the person who was recorded."""
 
+PHASE: Final = "phase"
+"""A further column: the part of the lift, such as ``rise``, by any name; empty in between."""
+
+FAR: Final = "z_far_m"
+"""A further column: height of the other person's end [m], from the origin of ``z_m``."""
+
+TILT: Final = "tilt_deg"
+"""A further column: inclination of the table [deg], positive if the end of ``z_m`` is the higher
+one."""
+
+FORCE: Final = "force_n"
+"""A further column: vertical force at the hand [N], from any zero."""
+
+BESIDE: Final = (FAR, TILT, FORCE)
+"""The further columns with a number in each sample."""
+
 LEAST_MOVEMENT: Final = 0.01
 """Least range of the heights of a lift [m]."""
 

@@ -1,4 +1,4 @@
-"""The partner, the second person of the human-human baseline."""
+"""The partner, the second of two people."""
 
 import math
 from dataclasses import dataclass
@@ -28,7 +28,7 @@ SECOND_PERSON: Final = Subject(
     pull=0.4,
     felt_share=1.0,
 )
-"""The person at the far end in every lift of the human-human baseline: always the same person, as
+"""The person at the far end in every lift of two people: always the same person, as
 there is only one robot.
 
 Sight about 150 ms old and a faster sense of force; a light, well damped arm that yields to it.
@@ -42,8 +42,8 @@ class SecondPersonParameters:
     """Parameters of :class:`SecondPerson`."""
 
     lag: float = CALIBRATION.partner_lag
-    """Intended lag behind the other person [s]: the only calibrated number, chosen so that the
-    human-human baseline has the RMSE of the paper's pair, 6.531 mm."""
+    """Intended lag behind the other person [s]: the only calibrated number, chosen so that two
+    people have the RMSE of the paper's pair, 6.531 mm."""
 
     velocity_memory: float = 0.1
     """Time constant with which the seen velocity is smoothed [s]: one control period."""

@@ -4,14 +4,12 @@
 of suites, which a report must not change.
 """
 
-import functools
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from colift.agents.agent import FRAME
-from colift.agents.humans.recorded import FASTEST, KNOT, PEAK, ROOM_BELOW, _spline
-from colift.agents.humans.recordings import Recording
-from numpy.typing import NDArray
+from colift.agents.humans.as_recorded import UNCHANGED, AsRecorded
+from colift.agents.humans.recorded import Recorded
+from colift.agents.humans.shape import shape_of
 
 DIGITS = 4
 """Significant digits of the numbers: more than a reader needs, fewer than rounding can change."""
@@ -40,80 +38,14 @@ class Treatment:
         }
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Shape:
-    """A recording as it is played, before it is scaled and slowed down."""
-
-    duration: float
-    """Duration of the recording [s]."""
-    knot: float
-    """Interval of the control points [s]."""
-    control: NDArray[np.float64]
-    """Heights of the control points [m], shape (n,), the first one at ``-knot``."""
-    inverted: bool
-
-    def heights(self, points: int) -> NDArray[np.float64]:
-        """Return smoothed heights [m], evenly over the duration, shape (points,)."""
-        return _spline(self.control, np.linspace(0.0, self.duration / self.knot, points))
-
-    @functools.cached_property
-    def _all(self) -> NDArray[np.float64]:
-        """Smoothed heights above the start, at four times the rate of a plan [m]."""
-        smooth = self.heights(4 * round(self.duration / FRAME) + 2)
-        smooth -= smooth[0]
-        return smooth
-
-    @property
-    def highest(self) -> float:
-        """Largest smoothed height above the start [m]."""
-        return float(self._all.max())
-
-    @property
-    def dip(self) -> float:
-        """Largest smoothed depth below the start [m]."""
-        return float(-self._all.min())
-
-    @property
-    def scale(self) -> float:
-        """Factor of the heights; the movement must not be flat."""
-        if self.dip * PEAK <= ROOM_BELOW * self.highest:
-            return PEAK / self.highest
-        return ROOM_BELOW / self.dip
-
-    @property
-    def slow_down(self) -> float:
-        """Factor of the duration; the movement must not be flat."""
-        steepest = float(np.abs(np.diff(self.control)).max()) / self.knot
-        return max(self.scale * steepest / FASTEST, 1.0)
-
-    @property
-    def steepest_time(self) -> float:
-        """Time of the highest smoothed speed since the first sample [s]."""
-        return self.knot * (float(np.abs(np.diff(self.control)).argmax()) - 0.5)
-
-
-def shape_of(recording: Recording) -> Shape:
-    """Return a recording as it is played, before it is scaled and slowed down."""
-    times = np.array(recording.times)
-    times -= times[0]
-    heights = np.array(recording.heights)
-    heights -= heights[0]
-    inverted = bool(-heights.min() > heights.max())
-    if inverted:
-        heights = -heights
-    duration = float(times[-1])
-    knot = max(KNOT, float(np.median(np.diff(times))))
-    control = np.interp(knot * np.arange(-1, np.ceil(duration / knot) + 3), times, heights)
-    return Shape(duration=duration, knot=knot, control=control, inverted=inverted)
-
-
-def treatment_of(recording: Recording) -> Treatment:
-    """Return the sampling and the range of a recording, and the changes to it."""
-    shape = shape_of(recording)
+def treatment_of(human: Recorded) -> Treatment:
+    """Return the sampling and the range of a person's recording, and the changes to it."""
+    recording, changed = human.recording, not isinstance(human, AsRecorded)
+    shape = shape_of(recording, invert=changed)
     return Treatment(
         rate_hz=1.0 / float(np.median(np.diff(recording.times))),
         range_m=max(recording.heights) - min(recording.heights),
-        scale=shape.scale,
-        slow_down=shape.slow_down,
+        scale=shape.scale if changed else UNCHANGED,
+        slow_down=shape.slow_down if changed else UNCHANGED,
         inverted=shape.inverted,
     )

@@ -23,7 +23,7 @@ class Evidence:
     idle: str
     """The robot that does nothing."""
     two_people: str
-    """The human-human baseline."""
+    """Two people."""
 
     @property
     def causal(self) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from colift.agents.loading.parameters import parameters_of
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.loading.values import write_value
 from colift.base.errors import InputError
-from colift.base.registry import POLICIES, entries, own_policies, policies_by_task
+from colift.base.registry import POLICIES, entries, made_for
 
 KEEPERS: Final = ("copy", "extrapolate", "anticipate")
 """Policies that keep the table level, from the simplest to the best: players of every task."""
@@ -26,9 +26,8 @@ def players(task: str) -> tuple[str, ...]:
 
     Of a task without policies of its own, these are all that play it.
     """
-    own = own_policies(task)
-    special = tuple(name for name in policies_by_task().get(task, ()) if name in own)
-    return (*KEEPERS, *(special or (name for name in own if name not in (*KEEPERS, *NO_ATTEMPT))))
+    others = (name for name in made_for(task) if name not in (*KEEPERS, *NO_ATTEMPT))
+    return (*KEEPERS, *others)
 
 
 def acts_alone(name: str) -> bool:

@@ -20,7 +20,7 @@ Figure = Callable[[str | None], float]
 
 @dataclass(frozen=True, kw_only=True)
 class Published:
-    """A published figure of two people, and its counterpart in the human-human baseline."""
+    """A published figure of two people, and its counterpart of two simulated people."""
 
     what: str
     """The figure in words."""

@@ -50,6 +50,9 @@ class Bundle:
     a metric that the version did not have is NaN."""
     indices: tuple[int, ...]
     """The place of each episode in the suite, counted from 0."""
+    human_human_mm: tuple[float, ...] | None
+    """RMSE of two people on the lift of each episode [mm]; None in a bundle from before it was
+    written, or without the human-human baseline."""
     recipe: Recipe
     """The recipe of the suite."""
     platform: dict[str, str]
@@ -145,7 +148,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
     results = _results(files[RESULTS], acted=any(len(trace.action) for trace in traces))
     outdated = results["scoring"] != SCORING
     played = {} if recipe.recordings is None else treated(recipe.suite())
-    episodes = parse_table(
+    episodes, human_human_mm = parse_table(
         files[EPISODES], traces, logs, recipe.metrics(), played, outdated=outdated
     )
     kept = kept_logs(episodes)
@@ -155,6 +158,7 @@ def parse(files: Mapping[str, bytes]) -> Bundle:
         results=results,
         episodes=episodes,
         indices=indices,
+        human_human_mm=human_human_mm,
         recipe=recipe,
         platform=platform,
     )

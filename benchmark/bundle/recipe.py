@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final, Self
 
-from colift.agents.humans import Behaviour, Recorded, load_recordings
+from colift.agents.humans import AsRecorded, Behaviour, Recorded, Recording, load_recordings
 from colift.agents.humans.recordings import COLUMNS, PERSON
 from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
@@ -22,6 +22,8 @@ from colift.benchmark.episode.conditions import Conditions, read_conditions
 from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import (
+    AS_RECORDED,
+    OF_RECORDINGS,
     PLAYED,
     RECORDED,
     make_scenario,
@@ -48,7 +50,7 @@ FROM_NAMES: Final = (
 CONDITIONS: Final = "conditions"
 """The key of the conditions; without it there are none."""
 
-FILES: Final = {RECORDED: RECORDINGS, PLAYED: INPUTS}
+FILES: Final = {**dict.fromkeys(OF_RECORDINGS, RECORDINGS), PLAYED: INPUTS}
 """The file with the trials of a behaviour."""
 
 
@@ -112,8 +114,9 @@ class Recipe:
         """
         humans: dict[tuple[str, str], Behaviour] = {}
         if self.recordings is not None:
-            recorded = _load(self.recordings)
-            humans.update({(RECORDED, trial): human for trial, human in recorded.items()})
+            for recording in _load(self.recordings):
+                humans[RECORDED, recording.name] = Recorded(recording=recording)
+                humans[AS_RECORDED, recording.name] = AsRecorded(recording=recording)
         if self.inputs is not None:
             played = parse_inputs(self.inputs, len(self.scenarios))
             trials = [trial for _, _, trial in self.scenarios]
@@ -281,13 +284,11 @@ def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
     return text.getvalue().encode(errors="replace")
 
 
-def _load(recordings: bytes) -> dict[str, Recorded]:
+def _load(recordings: bytes) -> tuple[Recording, ...]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / RECORDINGS
         path.write_bytes(recordings)
         try:
-            return {
-                recording.name: Recorded(recording=recording) for recording in load_recordings(path)
-            }
+            return load_recordings(path)
         except InputError as error:
             raise InputError(str(error).replace(str(path), RECORDINGS)) from None

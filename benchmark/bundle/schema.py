@@ -65,7 +65,7 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
         ),
         "vs_human": {
             "anyOf": [estimate, {"type": "null"}],
-            "description": "RMSE divided by that of the human-human baseline on the same lift: "
+            "description": "RMSE divided by that of two people on the same lift: "
             "geometric mean over the lifts.",
         },
         "rougher": _of(
@@ -89,7 +89,7 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
         "failed": _of(COUNT, "Failed lifts."),
         **means,
         "human_human_rmse_mm": _object(
-            {"mean": NUMBER_OR_NULL}, "RMSE of the human-human baseline in the stratum [mm]."
+            {"mean": NUMBER_OR_NULL}, "RMSE of two people in the stratum [mm]."
         ),
         "vs_human": _object(
             {"mean": NUMBER_OR_NULL}, "Geometric mean of the ratio to it over these lifts."

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from typing import Final
@@ -11,12 +12,15 @@ from colift.benchmark.bundle.files import EPISODES, TRACES
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, Metrics, Scores, reached
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import RECORDED
+from colift.benchmark.suites.catalogue import OF_RECORDINGS
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import TREATED, Treatments, treatments
 
 NEEDED: Final = ("behaviour", "subject", "trial", "seed", LEADING, "failure")
 """Columns of every table, whatever the version of its scores."""
+
+HUMAN_HUMAN_RMSE: Final = "human_human_rmse_mm"
+"""Column of the RMSE of two people on the same lift [mm]: of the human-human baseline."""
 
 LONGEST_REASON: Final = 1000
 """Characters of a failure's reason that are kept."""
@@ -33,14 +37,33 @@ def treated(suite: Suite) -> Treatments:
     return {one_line(trial): each for trial, each in treatments(suite).items()}
 
 
-def column_names(metrics: Metrics, *, recorded: bool = False) -> tuple[str, ...]:
-    """Return the names of the columns; ``recorded`` is whether recordings were played."""
+def column_names(
+    metrics: Metrics, *, human_human: bool = False, recorded: bool = False
+) -> tuple[str, ...]:
+    """Return the names of the columns.
+
+    Parameters
+    ----------
+    metrics
+        The metrics of the task.
+    human_human
+        Whether the error of two people on each lift is known.
+    recorded
+        Whether recordings were played.
+    """
     names = ("behaviour", "subject", "trial", "seed", *metrics, "reached", "failure")
-    return (*names, *TREATED) if recorded else names
+    return (
+        *names,
+        *((HUMAN_HUMAN_RMSE,) if human_human else ()),
+        *(TREATED if recorded else ()),
+    )
 
 
 def table_row(
-    episode: Episode, metrics: Metrics, played: Treatments | None = None
+    episode: Episode,
+    metrics: Metrics,
+    played: Treatments | None = None,
+    human_human_mm: float | None = None,
 ) -> dict[str, object]:
     """Return an episode as one row of the table, by column.
 
@@ -49,8 +72,11 @@ def table_row(
     episode, metrics
         The episode and the metrics of its task.
     played
-        Treatments of the recordings that were played, as of :func:`treated`, whose columns follow
-        the failure; None or empty without recordings.
+        Treatments of the recordings that were played, as of :func:`treated`, whose columns are the
+        last; None or empty without recordings.
+    human_human_mm
+        RMSE of two people on the same lift [mm], whose column follows the failure; None if it is
+        not known.
     """
     values = (
         episode.behaviour,
@@ -62,26 +88,33 @@ def table_row(
         episode.failure or "",
     )
     row: dict[str, object] = dict(zip(column_names(metrics), values, strict=True))
+    if human_human_mm is not None:
+        row[HUMAN_HUMAN_RMSE] = human_human_mm
     if played:
-        found = played.get(one_line(episode.trial)) if episode.behaviour == RECORDED else None
+        of_file = episode.behaviour in OF_RECORDINGS
+        found = played.get(one_line(episode.trial)) if of_file else None
         row |= dict.fromkeys(TREATED, "") if found is None else found.plain()
     return row
 
 
 def dump_table(
-    episodes: Sequence[Episode], metrics: Metrics, played: Treatments | None = None
+    episodes: Sequence[Episode],
+    metrics: Metrics,
+    played: Treatments | None = None,
+    human_human_mm: Sequence[float] | None = None,
 ) -> bytes:
     """Return the table as a CSV file; the field of a missing value is empty.
 
-    Arguments are as for :func:`table_row`.
+    Arguments are as for :func:`table_row`; ``human_human_mm`` has a number for each episode.
     """
     data = io.BytesIO()
     text = io.TextIOWrapper(data, "utf-8", newline="")  # A long table is there once, as bytes.
-    names = column_names(metrics, recorded=bool(played))
+    names = column_names(metrics, human_human=human_human_mm is not None, recorded=bool(played))
     writer = csv.DictWriter(text, fieldnames=names, lineterminator="\n")
     writer.writeheader()
-    for episode in episodes:
-        row = table_row(episode, metrics, played)
+    people = itertools.repeat(None) if human_human_mm is None else human_human_mm
+    for episode, mm in zip(episodes, people, strict=human_human_mm is not None):
+        row = table_row(episode, metrics, played, mm)
         writer.writerow({name: _field(value) for name, value in row.items()})
     text.flush()
     return data.getvalue()
@@ -101,8 +134,10 @@ def parse_table(
     played: Treatments | None = None,
     *,
     outdated: bool = False,
-) -> tuple[Episode, ...]:
-    """Return the episodes of a table.
+) -> tuple[tuple[Episode, ...], tuple[float, ...] | None]:
+    """Return the episodes of a table, and the RMSE of two people on each of them [mm].
+
+    The latter is None in a table from before it was written, or without the human-human baseline.
 
     Parameters
     ----------
@@ -132,14 +167,15 @@ def parse_table(
         raise InputError(
             f"{EPISODES}: the first line must have {', '.join(NEEDED)}, and no name twice"
         )
-    wanted = column_names(metrics, recorded=bool(played))
-    if names == column_names(metrics):
+    people = HUMAN_HUMAN_RMSE in names
+    wanted = column_names(metrics, human_human=people, recorded=bool(played))
+    if names == column_names(metrics, human_human=people):
         played = None
     elif not (outdated or names == wanted):
         raise InputError(f"{EPISODES}: the first line must be {','.join(wanted)}")
     if len(rows) - 1 != len(traces):
         raise InputError(f"{EPISODES}: {len(rows) - 1} episodes, but {TRACES} has {len(traces)}")
-    episodes = []
+    episodes, human_human = [], []
     for number, (row, trace, log) in enumerate(zip(rows[1:], traces, logs, strict=True), 1):
         where = f"{EPISODES}, row {number}"
         if len(row) != len(names):
@@ -147,12 +183,17 @@ def parse_table(
         values = dict(zip(names, row, strict=True))
         scores = _scores(values, metrics, where, outdated=outdated)
         episodes.append(_episode(values, scores, trace, log, where))
-    written = _dump_rows(rows) if outdated else dump_table(episodes, metrics, played)
+        if people:
+            human_human.append(_number(values[HUMAN_HUMAN_RMSE], f"{where}: {HUMAN_HUMAN_RMSE}"))
+            if math.isnan(human_human[-1]):
+                raise InputError(f"{where}: {HUMAN_HUMAN_RMSE} is missing")
+    known = tuple(human_human) if people else None
+    written = _dump_rows(rows) if outdated else dump_table(episodes, metrics, played, known)
     if written != data:
         lines = zip(written.split(b"\n"), data.split(b"\n"), strict=False)
         line = next((i for i, (a, b) in enumerate(lines, 1) if a != b), len(rows) + 1)
         raise InputError(f"{EPISODES}, line {line}: not as colift writes it")
-    return tuple(episodes)
+    return tuple(episodes), known
 
 
 def _dump_rows(rows: Sequence[Sequence[str]]) -> bytes:

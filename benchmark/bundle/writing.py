@@ -24,6 +24,7 @@ from colift.benchmark.bundle.traces import trace_arrays
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.scores import ScoreTable
 
 FORMAT: Final = 1
 """Number of the bundle's format."""
@@ -40,6 +41,7 @@ def write_bundle(
     run: Run,
     content: Mapping[str, Any],
     *,
+    human_human: ScoreTable | None = None,
     platform: Mapping[str, str] | None = None,
 ) -> None:
     """Write the bundle of a run: everything, or nothing.
@@ -55,6 +57,8 @@ def write_bundle(
         The episodes, at least one.
     content
         The content of ``results.json``; see :meth:`.Results.plain`.
+    human_human
+        The human-human baseline on the same episodes, if it is known.
     platform
         The fingerprint of the platform that simulated the episodes, if it is not this one.
 
@@ -66,7 +70,12 @@ def write_bundle(
     recipe = Recipe.of(run.suite, run.channel)
     files = {
         RESULTS: dump_json(content),
-        EPISODES: dump_table(run.episodes, run.suite.metrics, treated(run.suite)),
+        EPISODES: dump_table(
+            run.episodes,
+            run.suite.metrics,
+            treated(run.suite),
+            None if human_human is None else human_human.rmse_mm,
+        ),
     }
     if recipe is not None and recipe.recordings is not None:
         files[RECORDINGS] = recipe.recordings

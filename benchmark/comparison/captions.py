@@ -24,9 +24,8 @@ RANK: Final = (
 _RANK, _BASELINE, _INTERVALS = (
     RANK + " All pairs are tested together, by sign flips of people: the probability that any "
     "equal policies are told apart is at most 6 %.",
-    "Human-human baseline: two simulated people on the same lifts. vs_human is the RMSE divided by "
-    "that of the baseline on the same lift, geometric mean: 1 is as {} as with a human partner, "
-    "less is better.",
+    "Two people: two simulated people on the same lifts. vs_human is the RMSE divided by theirs on "
+    "the same lift, geometric mean: 1 is as {} as with a human partner, less is better.",
     "Intervals: 95 %, between people, each with all of their lifts. They show how much the value "
     "would vary with other people from the same population.",
 )
@@ -43,7 +42,7 @@ RANKS_CAPTION: Final = (
 AGAINST_CAPTION: Final = (
     "Paired difference of each policy's RMSE to the best policy's, with its 95 % interval; p value "
     "of this difference, corrected for all pairs; share of the lifts in which its RMSE is the "
-    f"lower one; probability that vs_human is below 1, the {HUMAN_HUMAN_LABEL}'s, with other "
+    f"lower one; probability that vs_human is below 1, that of {HUMAN_HUMAN_LABEL}, with other "
     "people."
 )
 
@@ -70,8 +69,8 @@ def picture_caption(axes: Axes, front: Sequence[str]) -> str:
         joined = f"{front[0]} alone is the Pareto front: it is the best in {both}. "
     return (
         "Higher and further left is better. Bars are 95 % intervals. "
-        f"{joined if front else ''}The diamond is the {HUMAN_HUMAN_LABEL}; "
-        "squares are references, which have no rank."
+        f"{joined if front else ''}The diamond is {HUMAN_HUMAN_LABEL}; squares "
+        "are references, which have no rank."
     )
 
 
@@ -83,14 +82,9 @@ def title(comparison: Comparison) -> str:
 
 
 def picture_title(comparison: Comparison) -> str:
-    """Return the title of the picture, with a line on how to read it."""
-    (level, more_level, _), (smooth, smoother, _) = _praise(comparison)
-    return (
-        f"How {level} and how {smooth}: {title(comparison)}\n"
-        f"Means over {comparison.overall.episodes} lifts, with 95 % intervals. "
-        f"Orange: no other policy is both {more_level} and {smoother}."
-        + (" Squares: references." if comparison.results.references else "")
-    )
+    """Return the title of the picture."""
+    (level, _, _), (smooth, _, _) = _praise(comparison)
+    return f"How {level} and how {smooth}: {title(comparison)}"
 
 
 def verdict(comparison: Comparison) -> str:
@@ -100,7 +94,7 @@ def verdict(comparison: Comparison) -> str:
     best, *others = overall.policies
     text = (
         f"{best.name} is the {most_level}: {best.rmse_mm.mean:.1f} mm, "
-        f"{best.vs_human.mean:.2f} times the {HUMAN_HUMAN_LABEL}'s error on the same lift "
+        f"{best.vs_human.mean:.2f} times the error of {HUMAN_HUMAN_LABEL} on the same lift "
         f"(mean {overall.human_human_rmse_mm.mean:.1f} mm)."
     )
     equals = [ranked.name for ranked in others if ranked.same_as_best]
@@ -117,6 +111,16 @@ def verdict(comparison: Comparison) -> str:
         if ranked.name == best.name and (ranked.better_than_human or 0.0) > SURE
     ]
     return f"{text} On {_listed(won)} it is {more_level} than two people." if won else text
+
+
+def remarks(comparison: Comparison) -> list[str]:
+    """Return the verdict, and what else is to be known about the policies."""
+    return [
+        verdict(comparison),
+        *roughness(comparison),
+        *goals(comparison),
+        *unit_warnings(comparison),
+    ]
 
 
 def failures(comparison: Comparison) -> list[str]:

@@ -1,4 +1,4 @@
-"""The comparison as files: JSON, CSV, picture and page."""
+"""The comparison as files: JSON, CSV, page, figures, and a table of LaTeX with what to cite."""
 
 import csv
 import dataclasses
@@ -14,11 +14,17 @@ from colift.benchmark.comparison.captions import picture_axis, picture_title
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
-from colift.benchmark.comparison.scatter.png import png
+from colift.benchmark.comparison.ranks_figure import ranks_figure
+from colift.benchmark.comparison.scatter.figure import scatter_figure, scene_size
 from colift.benchmark.comparison.scatter.scene import make_scene
+from colift.benchmark.comparison.tex import comparison_tex
+from colift.benchmark.rendering.figures import drawn_for, write_all
+from colift.benchmark.rendering.layout import PAGE, Layout
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.citation import bibtex
 from colift.benchmark.results.goals import goal_scores
 from colift.benchmark.suites.treatments import plain_treatments
+from matplotlib.figure import Figure
 
 
 def comparison_json(comparison: Comparison) -> dict[str, Any]:
@@ -103,13 +109,18 @@ def _part(ranking: Ranking) -> dict[str, Any]:
     }
 
 
-def comparison_csv(comparison: Comparison) -> str:
-    """Return the content of ``compare.csv``: one row for each policy in each ranking.
+def comparison_rows(comparison: Comparison) -> list[dict[str, object]]:
+    """Return one row for each policy in each ranking: on all lifts, by behaviour, by subject.
 
-    Where there is no value, as in the difference of the best to itself, the field is empty.
+    Where there is no value, as in the difference of the best to itself, it is None.
     """
     rankings = (comparison.overall, *comparison.behaviours, *comparison.subjects)
-    rows = [dict(_row(ranking, ranked)) for ranking in rankings for ranked in ranking.policies]
+    return [dict(_row(ranking, ranked)) for ranking in rankings for ranked in ranking.policies]
+
+
+def comparison_csv(comparison: Comparison) -> str:
+    """Return the content of ``compare.csv``: the rows, where a field without a value is empty."""
+    rows = comparison_rows(comparison)
     text = io.StringIO()
     writer = csv.DictWriter(text, fieldnames=list(rows[0]), lineterminator="\n")
     writer.writeheader()
@@ -139,10 +150,21 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
     yield "clipped", ranked.clipped
 
 
-def write_comparison(folder: Path, comparison: Comparison) -> None:
-    """Write ``compare.json``, ``compare.csv``, ``compare.png`` and ``compare.html`` into a folder.
+def write_comparison(folder: Path, comparison: Comparison, layout: Layout = PAGE) -> None:
+    """Write a comparison into a folder.
 
+    These are ``compare.html``, ``compare.json`` and ``compare.csv``; the figures ``compare`` and
+    ``ranks``, as PNG, SVG and PDF; the table ``compare.tex``, and ``compare.bib``, what to cite.
     Equal comparisons give equal files, up to the step times.
+
+    Parameters
+    ----------
+    folder
+        A folder, which is made if it is not there.
+    comparison
+        The comparison.
+    layout
+        Size of figures and table. Figures have a title on a slide alone: in print it is a caption.
 
     Raises
     ------
@@ -150,11 +172,31 @@ def write_comparison(folder: Path, comparison: Comparison) -> None:
         If it cannot be written to.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    title = picture_title(comparison).splitlines()
+    texts = {
+        "compare.json": json.dumps(comparison_json(comparison), indent=2, allow_nan=False) + "\n",
+        "compare.csv": comparison_csv(comparison),
+        "compare.html": html_page(comparison),
+        "compare.tex": comparison_tex(comparison, layout),
+        "compare.bib": bibtex(comparison.results.suite),
+    }
+    for name, text in texts.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    for name, figure in comparison_figures(comparison, layout).items():
+        write_all(folder, name, figure, picture_title(comparison))
+
+
+def comparison_figures(comparison: Comparison, layout: Layout) -> dict[str, Figure]:
+    """Return the figures of a comparison by the names of their files."""
     axes = comparison.results.axes
-    scene = make_scene(comparison.points, axes, axis=picture_axis(axes), title=title)
-    content = json.dumps(comparison_json(comparison), indent=2, allow_nan=False) + "\n"
-    (folder / "compare.png").write_bytes(png(scene))
-    (folder / "compare.json").write_text(content, encoding="utf-8")
-    (folder / "compare.csv").write_text(comparison_csv(comparison), encoding="utf-8")
-    (folder / "compare.html").write_text(html_page(comparison), encoding="utf-8")
+    scene = make_scene(
+        comparison.points,
+        axes,
+        axis=picture_axis(axes),
+        size=scene_size(layout),
+        title=() if layout.height is None else [picture_title(comparison)],
+    )
+    with drawn_for(layout):
+        return {
+            "compare": scatter_figure(scene, layout),
+            "ranks": ranks_figure(comparison, layout),
+        }

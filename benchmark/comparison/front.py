@@ -17,7 +17,7 @@ from colift.benchmark.statistics import Estimate
 
 @dataclass(frozen=True, kw_only=True)
 class FrontPoint:
-    """Error and second metric of a policy, of the human-human baseline or of a reference."""
+    """Error and second metric of a policy, of two people or of a reference."""
 
     name: str
     rmse_mm: Estimate

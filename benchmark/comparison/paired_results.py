@@ -1,4 +1,4 @@
-"""Results of policies, of the human-human baseline and of references on the same episodes."""
+"""Results of policies, of two people and of references on the same episodes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -41,7 +41,7 @@ class PairedResults:
     suite: Suite
     policies: tuple[PolicyResults, ...]
     human_human: ScoreTable
-    """The human-human baseline."""
+    """Two people."""
     references: Mapping[str, ScoreTable] = field(default_factory=dict)
     """The references, by name."""
     channel: Channel | None = None
@@ -60,7 +60,7 @@ class PairedResults:
 
     @property
     def unranked(self) -> dict[str, ScoreTable]:
-        """The human-human baseline, then the references, by label; none has a rank."""
+        """Two people, then the references, by label; none has a rank."""
         return {
             HUMAN_HUMAN_LABEL: self.human_human,
             **{reference_label(name): each for name, each in self.references.items()},

@@ -2,12 +2,15 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
 from colift.agents.spec import AgentSpec
 from colift.benchmark.channels import Channel
 from colift.benchmark.comparison.paired_results import PairedResults, PolicyResults
+from colift.benchmark.episode.loop import Episode
+from colift.benchmark.execution.journal import Journal
 from colift.benchmark.execution.runner import Run, run_suite
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
@@ -43,6 +46,7 @@ def play_policies(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
     channel: Channel | None = None,
+    journal: Journal | None = None,
 ) -> PairedResults:
     """Play the suite with each policy, and with baseline and references where none are shipped.
 
@@ -59,6 +63,9 @@ def play_policies(
         included.
     channel
         The channel of every policy, also of the stored ones; None is no channel.
+    journal
+        Where the episodes of the policies go when they are finished, one policy after the other;
+        those in it are not played again.
 
     Raises
     ------
@@ -67,8 +74,12 @@ def play_policies(
     KeyboardInterrupt
         After Ctrl-C: without all episodes there are no pairs.
     """
-    play = partial(run_suite, executor=executor, progress=progress, channel=channel)
-    played = [PolicyResults.of(name, play(spec, suite)) for name, spec in policies.items()]
+    play = partial(run_suite, suite=suite, executor=executor, progress=progress, channel=channel)
+    played = []
+    for number, (name, spec) in enumerate(policies.items()):
+        shelf = None if journal is None else _Part(journal, suite.size, number)
+        run = play(spec, done={} if shelf is None else shelf.done(), shelf=shelf)
+        played.append(PolicyResults.of(name, run))
     beside = known_references(references or {}, suite, executor=executor, progress=progress)
     shipped = shipped_baselines(suite)
     if shipped is None:
@@ -82,6 +93,27 @@ def play_policies(
         references=beside,
         channel=channel,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """The episodes of one policy in the journal of several."""
+
+    journal: Journal
+    size: int
+    """Number of episodes of a policy."""
+    number: int
+    """Place of the policy among the others, from 0."""
+
+    def done(self) -> dict[int, Episode]:
+        """Return the episodes that were finished earlier, by their place in the suite."""
+        places = ((index - self.number * self.size, index) for index in self.journal.done)
+        return {
+            place: self.journal.done[index] for place, index in places if 0 <= place < self.size
+        }
+
+    def keep(self, index: int, episode: Episode) -> Episode:
+        return self.journal.keep(self.number * self.size + index, episode)
 
 
 def known_references(

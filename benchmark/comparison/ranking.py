@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from colift.benchmark.comparison.paired_results import PairedResults
+from colift.benchmark.episode.metric import Metric
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.roughness import rougher
 from colift.benchmark.results.scores import ScoreTable
@@ -48,6 +49,11 @@ class RankedPolicy:
     def failed(self) -> int:
         """Lifts that failed; they count with the worst error."""
         return self.scores.failed
+
+    def partial(self, metric: Metric) -> bool:
+        """Return whether the mean of a metric leaves out lifts that count as the worst."""
+        found = self.scores.metric(metric.name)
+        return metric.missing == "worst" and found.mean is not None and found.missing > 0
 
     @property
     def clipped(self) -> float | None:

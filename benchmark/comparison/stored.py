@@ -1,18 +1,18 @@
-"""Results of policies that are stored in bundles."""
+"""Results of policies that were played before: in bundles, or by an evaluation."""
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from colift.base.errors import InputError, Remedy
-from colift.benchmark.bundle import read_bundle
-from colift.benchmark.bundle.files import RESULTS
+from colift.base.errors import InputError
+from colift.base.registry import POLICIES, entries
+from colift.benchmark.bundle.files import RESULTS, is_bundle
 from colift.benchmark.bundle.json_text import pick
+from colift.benchmark.bundle.present import read_present
 from colift.benchmark.channels import Channel, channel_name
 from colift.benchmark.comparison.paired_results import PolicyResults
-from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.results.summary import StepTimes
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.suites.suite import Suite
@@ -20,9 +20,10 @@ from colift.benchmark.suites.suite import Suite
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Stored:
-    """A bundle's scores, as it claims them, and their suite."""
+    """Scores of a policy and their suite; those of a bundle as it claims them."""
 
-    folder: Path
+    origin: str
+    """The folder of the bundle, or the evaluation, in words."""
     policy: PolicyResults
     suite: Suite
     channel: Channel | None
@@ -40,39 +41,31 @@ def read_stored(folder: Path) -> Stored:
         If there is none, it is damaged or incomplete, or its scores are not those of this version
         of colift.
     """
-    if not folder.is_dir():
-        raise InputError(f"{folder}: no such folder; name that of a result bundle")
-    try:
-        bundle = read_bundle(folder)
-        run = bundle.run()
-    except InputError as error:
-        raise InputError(f"{folder}: {error}") from error
+    bundle, run = read_present(folder)
     content = bundle.results
     if not (content["complete"] and run.complete):
         raise InputError(
             f"{folder} has {len(run.episodes)} of {run.suite.size} lifts: run the rest"
         )
-    scoring = content["scoring"]
-    if scoring != SCORING:
-        fault = f"{folder} has scores of version {scoring}, this colift computes version {SCORING}"
-        if scoring > SCORING:
-            raise InputError(f"{fault}: compare it with a newer colift")
-        raise InputError(fault, remedy=Remedy.RESCORE, target=str(folder))
-    if content["suite_digest"] != run.suite.digest:
-        raise InputError(
-            f"{folder} was played on {content['suite']} with digest {content['suite_digest']}; "
-            f"here that suite has digest {run.suite.digest}: run the policy again"
-        )
     step = content["summary"]["step_ms"]
     policy = PolicyResults.of(run.policy, run)
     policy = dataclasses.replace(policy, step_ms=StepTimes(p50=step["p50"], p99=step["p99"]))
     return Stored(
-        folder=folder,
+        origin=str(folder),
         policy=policy,
         suite=run.suite,
         channel=run.channel,
         vs_human=_vs_human(content),
     )
+
+
+def stored_among(texts: Iterable[str]) -> dict[str, Stored]:
+    """Return the results of the bundles among what a user has named, by their folders."""
+    return {
+        text: read_stored(Path(text))
+        for text in texts
+        if text not in entries(POLICIES) and is_bundle(Path(text))
+    }
 
 
 def _vs_human(content: Mapping[str, Any]) -> Estimate | None:
@@ -88,16 +81,16 @@ def _vs_human(content: Mapping[str, Any]) -> Estimate | None:
 
 
 def check_same_lifts(stored: Sequence[Stored], suite: Suite, channel: Channel | None) -> None:
-    """Raise an InputError if a bundle is of other lifts than a suite's, or over another channel."""
+    """Raise an InputError if results are of other lifts than a suite's, or over another channel."""
     for each in stored:
         if each.channel != channel:
             raise InputError(
-                f"{each.folder} was played over {_shown(each.channel)}, not over "
+                f"{each.origin} was played over {_shown(each.channel)}, not over "
                 f"{_shown(channel)}: policies are compared over the same channel"
             )
         if each.suite.digest != suite.digest:
             raise InputError(
-                f"{each.folder} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
+                f"{each.origin} has the lifts of {each.suite.name} (digest {each.suite.digest}), "
                 f"not of {suite.name} (digest {suite.digest}): policies are compared on the same "
                 "lifts"
             )

@@ -1,6 +1,6 @@
 """The run of a policy on a suite, in this process or on any executor."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
@@ -60,16 +60,18 @@ def finished(
     policy: AgentSpec,
     suite: Suite,
     *,
+    without: Container[int] = (),
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Iterator[tuple[int, Episode]]:
     """Yield the place of each episode, and the episode, as it is finished; none is kept.
 
-    Arguments and errors are those of :func:`run_suite`.
+    Places in ``without`` are left out. Other arguments and errors are those of :func:`run_suite`.
     """
     policy = placed(policy, executor)
     policy.check()
-    for index, episode in run_batches(batches(policy, suite, {}, None), executor, Faults()):
+    wanted = batches(policy, suite, without)
+    for index, episode in run_batches(wanted, executor, Faults()):
         yield index, episode
         progress(1)
 

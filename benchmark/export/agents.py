@@ -75,7 +75,7 @@ class Clipped:
 
 
 class SeededPartner:
-    """The second human of the human-human baseline, with noise from the lift's own seed.
+    """The second of two people, with noise from the lift's own seed.
 
     Parameters
     ----------

@@ -17,7 +17,7 @@ def file_change(name: str, old: bytes | None, new: bytes) -> str:
     Parameters
     ----------
     name
-        Name of the file; that of a text file ends in ``.txt``.
+        Name of the file; that of a text file ends in ``.txt`` or ``.svg``.
     old, new
         Former and present content; the former is None for a new file.
     """
@@ -25,7 +25,8 @@ def file_change(name: str, old: bytes | None, new: bytes) -> str:
         return f"{name}: new"
     if old == new:
         return ""
-    return _text_change(name, old, new) if name.endswith(".txt") else _pixel_change(name, old, new)
+    is_text = name.endswith((".txt", ".svg"))
+    return _text_change(name, old, new) if is_text else _pixel_change(name, old, new)
 
 
 def _text_change(name: str, old: bytes, new: bytes) -> str:

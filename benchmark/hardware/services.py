@@ -34,7 +34,7 @@ Pause = Callable[[float], None]
 
 
 class MotionService:
-    """ALMotion: the part of it that is documented in ``docs/guides/hardware.md``."""
+    """ALMotion: the calls that ``agents.hardware.nao`` makes."""
 
     # Otherwise libqi would call one method at a time, and a blocking one would block all.
     __qi_threading__ = "multi"

@@ -3,7 +3,7 @@
 The paper states neither the lift heights of its subjects nor Q, and only one RMSE of two people
 lifting together. The fitted numbers are the mean lift height of each subject (so that ``reactive``
 and ``blend`` together have the error of the subject's row of Table I), q (so that the ratio of the
-two columns is the paper's), and the partner's lag (so that the human-human baseline has 6.531 mm).
+two columns is the paper's), and the partner's lag (so that two people have 6.531 mm).
 The paper gives eleven numbers for these seven; the rest of Table I is not fitted and shows how well
 the set-up reproduces the experiment.
 """
@@ -71,7 +71,7 @@ class Fit:
     with_prediction: dict[str, float]
     """Mean RMSE of ``blend`` for each subject [mm]."""
     human_human: float
-    """Mean RMSE of the human-human baseline [mm]."""
+    """Mean RMSE of two people [mm]."""
 
     @property
     def worst_cell(self) -> float:

@@ -7,8 +7,10 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from typing import Final
 
+from colift.agents.control.predictor import PredictorParameters
 from colift.agents.humans import Behaviour, Jerky, Pause
-from colift.agents.loading.policy_spec import PolicySpec
+from colift.agents.loading.parameters import make_with, read_values
+from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run, run_suite
@@ -28,7 +30,6 @@ TORQUE_ROBOT: Final = "iiwa"
 """The torque-controlled arm that is compared with the NAO."""
 
 REACTIVE: Final = PolicySpec(text="reactive")
-BLEND: Final = watched_blend()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,12 +108,15 @@ class Evidence:
     timing: Mapping[TimingSetting, Run]
     """Some of Table I's lifts, by policy, control period and latency."""
     learning: list[LearningTrial]
+    parameters: PredictorParameters
+    """Parameters of the predictor of the blend policy."""
 
 
 def collect_evidence(
     suite: Suite,
     effort: Effort | None = None,
     *,
+    blend: str = "",
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda done: None,
 ) -> Evidence:
@@ -125,20 +129,32 @@ def collect_evidence(
         subjects and take the first of the same seeds.
     effort
         Size of each experiment.
+    blend
+        Parameters of the blend policy that differ from its own, ``name=value,name=value``.
     executor, progress
         As for :func:`.run_suite`; :func:`lift_count` is what ``progress`` adds up to.
 
     Raises
     ------
+    InputError
+        As :func:`blend_parameters`.
     KeyboardInterrupt
         If it is interrupted; there is no report on an incomplete experiment.
     """
     effort = effort or Effort()
+    parameters = blend_parameters(blend)
+    watched = watched_blend(parameters, f"blend,{blend}" if blend else "blend")
 
     def run(policy: AgentSpec, lifts: Suite) -> Run:
         return run_suite(policy, lifts, executor=executor, progress=progress)
 
-    blend = run(BLEND, suite)
+    def sampled(lifts: Suite) -> list[SampledLift]:
+        return sampled_lifts(run(watched, lifts), parameters)
+
+    def forgets(phi: float) -> InMemorySpec:
+        return watched_blend(dataclasses.replace(parameters, forgetting=phi))
+
+    table = run(watched, suite)
     jerky = behaving(suite, "jerky", Jerky(), effort.jerky)
     some = first_seeds(suite, effort.forgetting)
     other_robot = first_seeds(suite, effort.torque).with_robot(TORQUE_ROBOT)
@@ -151,19 +167,19 @@ def collect_evidence(
     fresh = suite.with_timing(0.0, None)
     return Evidence(
         reactive=run(REACTIVE, suite),
-        blend=blend,
-        fresh=FreshRuns(reactive=run(REACTIVE, fresh), blend=run(BLEND, fresh)),
-        lifts=sampled_lifts(blend),
+        blend=table,
+        fresh=FreshRuns(reactive=run(REACTIVE, fresh), blend=run(watched, fresh)),
+        lifts=sampled_lifts(table, parameters),
         human_human=human_human_run(suite, executor=executor, progress=progress),
-        pauses=sampled_lifts(run(BLEND, behaving(suite, "pause", PAUSE, effort.pause))),
-        rests=sampled_lifts(run(BLEND, behaving(suite, "pause", LONG_PAUSE, effort.rest))),
+        pauses=sampled(behaving(suite, "pause", PAUSE, effort.pause)),
+        rests=sampled(behaving(suite, "pause", LONG_PAUSE, effort.rest)),
         jerky_reactive=run(REACTIVE, jerky),
-        jerky_blend=run(BLEND, jerky),
-        torque=TorqueRuns(reactive=run(REACTIVE, other_robot), blend=run(BLEND, other_robot)),
-        forgetting={phi: run(watched_blend(phi), some) for phi in FORGETTING_FACTORS},
+        jerky_blend=run(watched, jerky),
+        torque=TorqueRuns(reactive=run(REACTIVE, other_robot), blend=run(watched, other_robot)),
+        forgetting={phi: run(forgets(phi), some) for phi in FORGETTING_FACTORS},
         timing={
             timing: run(
-                REACTIVE if timing.policy == "reactive" else BLEND,
+                REACTIVE if timing.policy == "reactive" else watched,
                 first_seeds(suite, effort.timing).with_timing(
                     timing.latency, timing.control_period
                 ),
@@ -171,7 +187,21 @@ def collect_evidence(
             for timing in timings
         },
         learning=_learn(effort.learning_trials, suite.seeds[0], executor, progress),
+        parameters=parameters,
     )
+
+
+def blend_parameters(text: str) -> PredictorParameters:
+    """Return the parameters of the blend policy with those of ``name=value,name=value``.
+
+    Raises
+    ------
+    InputError
+        If the policy has no such parameter, or it cannot have such a value.
+    """
+    values = read_values(PredictorParameters, text) if text else {}
+    parameters: PredictorParameters = make_with(PredictorParameters, values)
+    return parameters
 
 
 def lift_count(suite: Suite, effort: Effort | None = None) -> int:

@@ -1,12 +1,11 @@
-"""Claims and figures of the report, and the common look of the figures."""
+"""Claims and figures of the report."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
-from colift.benchmark.rendering.style import HUMAN, INK, LINE, PAPER, ROBOT, style_axes
+from colift.benchmark.rendering.style import LINE
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 OUTSIDE = "The measured value lies outside the criterion."
@@ -45,16 +44,8 @@ def p_value_text(p: float) -> str:
     return f"p = {p:.4f}" if p >= 0.00015 else "p < 0.0002"
 
 
-DPI: Final = 130
-WIDTH: Final = 8.0
-"""Width of a figure [inches]."""
-
-PREDICTION: Final = "#009E73"
-CONFIDENCE: Final = "#8A4F9E"
-"""Colour of the confidence, distinguishable from those of the two ends with any kind of colour
-vision."""
-
-COLOURS: Final = {"human": HUMAN, "robot": ROBOT}
+STEPS: Final = "time step (100 ms)"
+"""Axis of the steps of a lift."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,67 +60,6 @@ class Exhibit:
     figure: Figure
     columns: Mapping[str, Sequence[float | str] | Sequence[float]]
     """The data, column by column, units in the names."""
-
-
-def panels(
-    labels: Sequence[str],
-    heights: Sequence[float],
-    *,
-    columns: int = 1,
-    x_label: str = "time step (100 ms)",
-    share_x: bool = True,
-    share_y: bool = True,
-) -> tuple[Figure, list[list[Axes]]]:
-    """Return a figure of stacked panels in the common look.
-
-    Parameters
-    ----------
-    labels
-        Quantity on the vertical axis of each row of panels.
-    heights
-        Height of each row [inches].
-    columns
-        Panels in a row.
-    x_label
-        Quantity on the horizontal axes.
-    share_x
-        Whether all panels share the horizontal axis.
-    share_y
-        Whether the panels of a row share the vertical axis.
-    """
-    figure = Figure(
-        figsize=(WIDTH, sum(heights) + 0.6), dpi=DPI, facecolor=PAPER, layout="constrained"
-    )
-    FigureCanvasAgg(figure)
-    grid = figure.subplots(
-        len(labels),
-        columns,
-        sharex=share_x,
-        sharey="row" if share_y else False,
-        squeeze=False,
-        height_ratios=list(heights),
-    )
-    rows: list[list[Axes]] = [list(row) for row in grid]
-    for row, label in zip(rows, labels, strict=True):
-        for axes in row:
-            style_axes(axes)
-        row[0].set_ylabel(label, fontsize=9, color=INK)
-    for axes in rows[-1]:
-        axes.set_xlabel(x_label, fontsize=9, color=INK)
-    return figure, rows
-
-
-def legend(axes: Axes, columns: int = 4) -> None:
-    """Put the legend above the axes."""
-    axes.legend(
-        loc="lower left",
-        bbox_to_anchor=(0, 1.0),
-        borderaxespad=0.2,
-        ncols=columns,
-        frameon=False,
-        fontsize=8.5,
-        labelcolor=INK,
-    )
 
 
 def shade(axes: Axes, spans: Sequence[tuple[float, float]], label: str = "") -> None:

@@ -122,7 +122,7 @@ def table_notes(table: TableOne) -> list[str]:
     return [
         f"Ratio of the means, with / without: paper {table.ratio.paper:.3f}, ours "
         f"{_ours(table.ratio, '.3f')}.",
-        f"Human-human baseline: paper {table.human_human.paper:.3f} mm (one pair of people), ours "
+        f"Two people: paper {table.human_human.paper:.3f} mm (one pair of people), ours "
         f"{_ours(table.human_human)} mm.",
     ]
 

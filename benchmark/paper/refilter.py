@@ -30,9 +30,7 @@ class Refiltered:
     """(n,) likelihood of the sample (eq. 6)."""
 
 
-def refilter(
-    samples: ArrayLike, period: float, parameters: PredictorParameters | None = None
-) -> Refiltered:
+def refilter(samples: ArrayLike, period: float, parameters: PredictorParameters) -> Refiltered:
     """Run the Kalman filter over samples and return the prediction of each.
 
     Parameters
@@ -42,9 +40,8 @@ def refilter(
     period
         Time between two samples [s].
     parameters
-        Filter and reading of eq. 6; the shipped ones by default.
+        Filter and reading of eq. 6.
     """
-    parameters = parameters or PredictorParameters()
     first, *others = np.asarray(samples, dtype=np.float64).tolist()
     motion = MotionFilter(parameters.motion)
     motion.reset(first)

@@ -2,7 +2,6 @@
 
 import csv
 import dataclasses
-import io
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
+from colift.agents.control.predictor import PredictorParameters
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.paper.evidence import Evidence
 from colift.benchmark.paper.exhibits import Claim, Exhibit
@@ -34,9 +34,11 @@ from colift.benchmark.paper.topics.table import table_claims, table_exhibit
 from colift.benchmark.paper.topics.timing import timing_claims, timing_exhibit, timing_results
 from colift.benchmark.paper.topics.torque import torque_claims
 from colift.benchmark.paper.watched import SampledLift
+from colift.benchmark.rendering.figures import drawn_for, write_all
+from colift.benchmark.rendering.layout import PAGE, Layout
 
 PAGES: Final = ("report.html", "report.md", "claims.json")
-"""The files of a report beside the figures, each a PNG and a CSV."""
+"""The files of a report beside the figures, each a PNG, an SVG, a PDF and a CSV."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -52,17 +54,21 @@ class Report:
     """Origin of the report, in one line."""
 
 
-def make_report(evidence: Evidence) -> Report:
-    """Return the report of the evidence."""
+def make_report(evidence: Evidence, layout: Layout = PAGE) -> Report:
+    """Return the report of the evidence, its figures in a layout."""
     table = table_one(evidence.reactive, evidence.blend, evidence.human_human)
     suite = evidence.blend.suite
+    with drawn_for(layout):
+        exhibits = all_exhibits(evidence, table, layout)
+    changed = evidence.parameters != PredictorParameters()
     return Report(
         table=table,
         fresh=table_one(evidence.fresh.reactive, evidence.fresh.blend, evidence.human_human),
-        exhibits=all_exhibits(evidence, table),
+        exhibits=exhibits,
         claims=all_claims(evidence, table),
         provenance=f"colift {version('colift')}, suite {suite.name}, digest {suite.digest}, "
-        f"seeds {suite.seeds[0]} to {suite.seeds[-1]}, {table.lifts} lifts per subject and case",
+        f"seeds {suite.seeds[0]} to {suite.seeds[-1]}, {table.lifts} lifts per subject and case"
+        + (f", with {evidence.blend.policy}" if changed else ""),
     )
 
 
@@ -72,18 +78,17 @@ def claims_json(report: Report) -> list[dict[str, Any]]:
 
 
 def write_report(report: Report, folder: Path) -> None:
-    """Write the report into a folder: pages, claims, and a PNG and a CSV for each figure."""
+    """Write the report into a folder: pages, claims, and files and a CSV for each figure."""
     folder.mkdir(parents=True, exist_ok=True)
-    drawn = {exhibit.name: _png(exhibit) for exhibit in report.exhibits}
     for exhibit in report.exhibits:
-        (folder / f"{exhibit.name}.png").write_bytes(drawn[exhibit.name])
+        write_all(folder, exhibit.name, exhibit.figure, exhibit.title)
         _write_csv(folder / f"{exhibit.name}.csv", exhibit)
     pages = (
         *report_pages(
             report.table,
             report.fresh,
             report.exhibits,
-            drawn,
+            {each.name: (folder / f"{each.name}.png").read_bytes() for each in report.exhibits},
             report.claims,
             report.provenance,
         ),
@@ -91,13 +96,6 @@ def write_report(report: Report, folder: Path) -> None:
     )
     for name, content in zip(PAGES, pages, strict=True):
         (folder / name).write_text(content, encoding="utf-8")
-
-
-def _png(exhibit: Exhibit) -> bytes:
-    buffer = io.BytesIO()
-    # Without the library's name and version, equal data give equal files.
-    exhibit.figure.savefig(buffer, format="png", metadata={"Software": None})
-    return buffer.getvalue()
 
 
 def _write_csv(path: Path, exhibit: Exhibit) -> None:
@@ -117,7 +115,7 @@ def _cell(value: float | str) -> float | str:
     return "" if value != value else value
 
 
-def all_exhibits(evidence: Evidence, table: TableOne) -> list[Exhibit]:
+def all_exhibits(evidence: Evidence, table: TableOne, layout: Layout) -> list[Exhibit]:
     """Return all figures in the report's order.
 
     Where a figure shows one lift, it is the one with the median error of its experiment: neither
@@ -127,15 +125,15 @@ def all_exhibits(evidence: Evidence, table: TableOne) -> list[Exhibit]:
     lift, reactive = evidence.lifts[shown], evidence.reactive.episodes[shown]
     limit = error_limit(lift.episode, reactive)
     return [
-        table_exhibit(table),
-        prediction_exhibit(lift),
-        confidence_exhibit(lift),
-        pause_exhibit(_median(evidence.pauses)),
-        forgetting_exhibit(_median(evidence.rests)),
-        comparison_exhibit(lift.episode, reactive),
-        human_human_exhibit(evidence.human_human.episodes[shown], limit),
-        learning_exhibit(evidence.learning),
-        timing_exhibit(timing_results(evidence.timing)),
+        table_exhibit(table, layout),
+        prediction_exhibit(lift, layout),
+        confidence_exhibit(lift, layout),
+        pause_exhibit(_median(evidence.pauses), layout),
+        forgetting_exhibit(_median(evidence.rests), layout),
+        comparison_exhibit(lift.episode, reactive, layout),
+        human_human_exhibit(evidence.human_human.episodes[shown], limit, layout),
+        learning_exhibit(evidence.learning, layout),
+        timing_exhibit(timing_results(evidence), layout),
     ]
 
 
@@ -162,5 +160,5 @@ def all_claims(evidence: Evidence, table: TableOne) -> list[Claim]:
         *table_claims(table),
         *performance_claims(evidence),
         *torque_claims(evidence),
-        *timing_claims(evidence.timing),
+        *timing_claims(evidence),
     ]

@@ -85,7 +85,7 @@ class TableOne:
     ratio: Reproduction
     """Mean with prediction / mean without."""
     human_human: Reproduction
-    """RMSE of the human-human baseline [mm] (section V.A)."""
+    """RMSE of two people [mm] (section V.A)."""
     lifts: int
     """Lifts in each of our cells."""
 

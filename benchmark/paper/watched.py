@@ -1,6 +1,5 @@
 """The watched blend policy, and its lifts step by step, with the human's plan."""
 
-import dataclasses
 import math
 from dataclasses import dataclass
 from functools import partial
@@ -15,6 +14,7 @@ from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run
+from colift.benchmark.paper.refilter import Refiltered, refilter
 from numpy.typing import ArrayLike, NDArray
 
 
@@ -38,21 +38,12 @@ class Watched:
         return {**self._blend.internals(), "sample": self._sample}
 
 
-def watched_blend(forgetting: float | None = None) -> InMemorySpec:
-    """Return the specification of the watched blend policy.
-
-    Parameters
-    ----------
-    forgetting
-        phi of eq. 7; the policy's own by default.
-    """
-    return InMemorySpec(name="blend", factory=partial(_watched, forgetting), source=Blend)
+def watched_blend(parameters: PredictorParameters, name: str = "blend") -> InMemorySpec:
+    """Return the specification of the watched blend policy, by the name that tables use."""
+    return InMemorySpec(name=name, factory=partial(_watched, parameters), source=Blend)
 
 
-def _watched(forgetting: float | None) -> Watched:
-    parameters = PredictorParameters()
-    if forgetting is not None:
-        parameters = dataclasses.replace(parameters, forgetting=forgetting)
+def _watched(parameters: PredictorParameters) -> Watched:
     return Watched(Blend(parameters=parameters))
 
 
@@ -67,6 +58,8 @@ class SampledLift:
     episode: Episode
     plan: Plan
     """The human's plan."""
+    parameters: PredictorParameters
+    """Parameters of the policy's predictor."""
 
     @property
     def samples(self) -> Series:
@@ -86,6 +79,11 @@ class SampledLift:
     def one_step_ahead(self, name: str) -> Series:
         """Return an internal, moved to the step in which it can be checked; NaN for the first."""
         return np.concatenate(([np.nan], self.episode.trace.internals[name][:-1]))
+
+    @property
+    def refiltered(self) -> Refiltered:
+        """The filter of the policy, run again over the samples."""
+        return refilter(self.samples, self.scenario.control_period, self.parameters)
 
     @property
     def errors(self) -> Series:
@@ -120,7 +118,7 @@ class SampledLift:
         return self.step_showing(self.plan.strokes[0][0])
 
 
-def sampled_lifts(run: Run) -> list[SampledLift]:
+def sampled_lifts(run: Run, parameters: PredictorParameters) -> list[SampledLift]:
     """Return the lifts of a complete run of :func:`watched_blend`, in its order."""
     remaining = iter(run.episodes)
     found = []
@@ -128,7 +126,10 @@ def sampled_lifts(run: Run) -> list[SampledLift]:
         lift = Lift(scenario)
         for seed in run.suite.seeds:
             lift.reset(seed)
-            found.append(SampledLift(scenario=scenario, episode=next(remaining), plan=lift.plan))
+            sampled = SampledLift(
+                scenario=scenario, episode=next(remaining), plan=lift.plan, parameters=parameters
+            )
+            found.append(sampled)
         lift.close()
     return found
 

@@ -36,7 +36,7 @@ ITERATIONS: Final = (35, 200, 0)
 POLICIES: Final = ("anticipate", "blend", "copy", "random")
 """Two that predict, one that follows, and one that jerks the table."""
 
-PAIR: Final = "two humans"
+PAIR: Final = "two people"
 """Name of the human-human team."""
 
 PLAYERS: Final[Mapping[str, Sequence[str]]] = {

@@ -1,17 +1,27 @@
 """Suites of real lifts: the people of a session or of recordings, for any policy."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from colift.agents.humans import LIVE_SUBJECT, HandLog, Played, missed_words
+from colift.agents.humans import (
+    LIVE_SUBJECT,
+    AsRecorded,
+    HandLog,
+    Played,
+    Recording,
+    load_recordings,
+    missed_words,
+)
+from colift.agents.humans.as_recorded import heights_of
 from colift.base.errors import InputError
 from colift.benchmark.bundle import one_line, read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.real_lifts.session_folder import lift_folders
 from colift.benchmark.results.goals import lift_goal_errors
-from colift.benchmark.suites.catalogue import PLAYED
+from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
+from colift.benchmark.suites.catalogue import AS_RECORDED, PLAYED
 from colift.benchmark.suites.suite import Suite, plain_name, recorded_suite
 from colift.benchmark.tasks.level.task import LEVEL
 
@@ -29,7 +39,7 @@ class RealLifts:
     suite: Suite
     """The lifts that count."""
     left_out: Mapping[str, str] = field(default_factory=dict)
-    """The reason why each other lift of a session does not count, by the name of its folder."""
+    """The reason why each other lift does not count, by its trial or the name of its folder."""
 
 
 def played_lifts(session: Path) -> RealLifts:
@@ -81,12 +91,79 @@ def _reasons(left_out: Mapping[str, str]) -> str:
     )
 
 
-def real_lifts(path: Path) -> RealLifts:
+def beyond(recordings: Sequence[Recording], room: tuple[float, float]) -> dict[str, str]:
+    """Return in words, by trial, which recordings leave a range of heights above the start [m]."""
+    ranges = {recording.name: heights_of(recording) for recording in recordings}
+    return {
+        name: f"as recorded it goes from {low:.2f} to {high:.2f} m about its start, must be within "
+        f"{room[0]:g} to {room[1]:g} m"
+        for name, (low, high) in ranges.items()
+        if low < room[0] or high > room[1]
+    }
+
+
+def lifts_as_recorded(
+    recordings: Sequence[Recording], source: str, room: tuple[float, float]
+) -> RealLifts:
+    """Return recorded lifts at their own height and pace, each with the same arm.
+
+    Parameters
+    ----------
+    recordings
+        The lifts.
+    source
+        Their origin, for the suite's name.
+    room
+        Lowest and highest height above the start [m] at which both ends can be held; lifts that go
+        beyond are left out.
+
+    Raises
+    ------
+    InputError
+        If all are left out.
+    """
+    left_out = beyond(recordings, room)
+    kept = [recording for recording in recordings if recording.name not in left_out]
+    if not kept:
+        raise InputError(
+            f"{source}: no lift can be played as recorded, only scaled{_reasons(left_out)}"
+        )
+    scenarios = tuple(
+        Scenario(
+            behaviour=AS_RECORDED,
+            human=AsRecorded(recording=recording),
+            trial=recording.name,
+            subject=LIVE_SUBJECT,
+            task=LEVEL,
+        )
+        for recording in kept
+    )
+    name = plain_name(f"recordings {source} as recorded")
+    suite = Suite(name=name, scenarios=scenarios, seeds=(SEED,))
+    return RealLifts(suite=suite, left_out=left_out)
+
+
+def real_lifts(path: Path, *, as_recorded: bool = False, robot: str | None = None) -> RealLifts:
     """Return the real lifts in a file of recordings or in a session's folder.
+
+    Parameters
+    ----------
+    path
+        The file or folder.
+    as_recorded
+        Whether recordings are played at their own height and pace, as live lifts always are; else
+        they are scaled and slowed down.
+    robot
+        The robot at the far end, within whose stroke they must then be; None is the default.
 
     Raises
     ------
     InputError
         If the file or the session cannot be used; the message states the reason.
     """
-    return played_lifts(path) if path.is_dir() else RealLifts(suite=recorded_suite(path))
+    if path.is_dir():
+        return played_lifts(path)
+    if not as_recorded:
+        return RealLifts(suite=recorded_suite(path))
+    stroke = make_robot(robot or DEFAULT_ROBOT).stroke
+    return lifts_as_recorded(load_recordings(path), path.name, stroke)

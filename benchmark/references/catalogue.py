@@ -8,7 +8,7 @@ from colift.benchmark.references.best_known import best_known_run, has_best_know
 from colift.benchmark.references.oracle import ORACLE, ORACLES, oracle_run
 from colift.benchmark.references.told import TOLD, told_of, told_run
 from colift.benchmark.results.baselines import BEST_KNOWN
-from colift.benchmark.suites.catalogue import PLAYED, RECORDED
+from colift.benchmark.suites.catalogue import REAL
 from colift.benchmark.suites.suite import Suite
 
 REFERENCES: Final[Mapping[str, Reference]] = {
@@ -27,10 +27,9 @@ def suite_references(suite: Suite) -> Mapping[str, Reference]:
     ones.
     """
     first = suite.scenarios[0]
-    real = first.behaviour in (RECORDED, PLAYED)
     known = {
         TOLD: told_of(suite) is not None,
-        BEST_KNOWN: has_best_known(suite) and not real,
+        BEST_KNOWN: has_best_known(suite) and first.behaviour not in REAL,
         ORACLE: first.task.name in ORACLES,
     }
     return {name: REFERENCES[name] for name, has in known.items() if has}

@@ -73,7 +73,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
     behaviours = dict.fromkeys(behaviour for behaviour, _ in human_human.strata)
     for behaviour in behaviours:
         if behaviour in TO_HUMAN_HUMAN:
-            ratio("the human-human baseline", human_human, behaviour, TO_HUMAN_HUMAN[behaviour])
+            ratio("two people", human_human, behaviour, TO_HUMAN_HUMAN[behaviour])
             if best is not None:
                 ratio("the best known policy", best, behaviour, TO_BEST_KNOWN)
         if behaviour in ("smooth", RECORDED):
@@ -89,7 +89,7 @@ def claims(results: PairedResults) -> tuple[PolicyClaim, ...]:
                 )
             )
     if set(behaviours) == set(TO_HUMAN_HUMAN):
-        ratio("the human-human baseline", human_human, None, TO_HUMAN_HUMAN_OVER_ALL)
+        ratio("two people", human_human, None, TO_HUMAN_HUMAN_OVER_ALL)
         if best is not None:
             ratio("the best known policy", best, None, TO_BEST_KNOWN_OVER_ALL)
     ratio("anticipate", anticipate, None, TO_ANTICIPATE)

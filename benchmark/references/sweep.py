@@ -97,7 +97,7 @@ def human_human_rmse(
     executor: Executor | None = None,
     progress: Callable[[int], None] = lambda lifts: None,
 ) -> float:
-    """Return the mean RMSE of the human-human baseline [mm]; it does not depend on the timing."""
+    """Return the mean RMSE of two people [mm]; it does not depend on the timing."""
     run = human_human_run(suite, executor=executor, progress=progress)
     return ScoreTable.of(run).mean
 

@@ -8,15 +8,17 @@ from typing import Final
 import matplotlib
 from colift.agents.agent import FRAME
 from colift.benchmark.episode.drawn import (
+    DrawnHurdle,
     DrawnSeries,
     ball_and_target,
+    drawn_hurdles,
     intended_far_end,
     shown_error,
 )
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.rendering.bodies import PERSON, label_of, shown_body
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK, PAPER, ROBOT
+from colift.benchmark.rendering.style import COLOURS, FAINT, HUMAN, INK, PAPER, ROBOT
 from PIL import Image, ImageDraw, ImageFont
 
 VALUE: Final = 84
@@ -42,17 +44,17 @@ def title_strip(episode: Episode, policy: str, width: int, height: int) -> Image
     right = width - size
     pen.text((right, middle), score, fill=INK, font=bold, anchor="rm")
     right -= round(pen.textlength(score, font=bold)) + size
-    name = _fitted(policy, bold, right / 2)
+    name = fitted(policy, bold, right / 2)
     pen.text((size, middle), name, fill=INK, font=bold, anchor="lm")
     left = size + bold.getlength(name)
     trial = [episode.trial] if episode.trial else []
     parts = ["", episode.behaviour, episode.subject, *trial, f"seed {episode.seed}"]
-    words = _fitted("  ·  ".join(parts), plain, right - left)
+    words = fitted("  ·  ".join(parts), plain, right - left)
     pen.text((left, middle), words, fill=FAINT, font=plain, anchor="lm")
     return picture
 
 
-def _fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
+def fitted(text: str, font: ImageFont.FreeTypeFont, room: float) -> str:
     """Return the text, shortened to fit into ``room`` [pixels]."""
     if font.getlength(text) <= room:
         return text
@@ -68,28 +70,32 @@ def readout(
     partner: str,
     drawn: Sequence[DrawnSeries] = (),
 ) -> None:
-    """Write a frame's time, the heights of both ends and their difference [mm] into a scene.
+    """Write a frame's time, heights, places and errors [mm] into a scene.
 
     They are in the upper left above a NAO, and in the middle between two people. The last frame of
     a failed episode states the reason.
     """
     trace = episode.trace
     human, robot = 1000 * float(trace.human_end[frame]), 1000 * float(trace.robot_end[frame])
-    rows = [
-        ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
-        ("human's end", _millimetres(human), HUMAN, False),
-        (f"{label_of(partner)}'s end", _millimetres(robot), ROBOT, False),
-        *((each.label, _millimetres(_at(trace, each, frame)), INK, False) for each in drawn),
-    ]
+    hurdles = drawn_hurdles(drawn, trace)
+    series = [each for each in drawn if each.stay is None]
     level = intended_far_end(drawn) is None and ball_and_target(drawn) is None
     error = 1000 * abs(float(shown_error(drawn, trace)[frame]))
-    rows.append(("difference" if level else "error", _millimetres(error), INK, True))
+    rows = [
+        ("time", f"{(frame + 1) * FRAME:.2f} s", FAINT, False),
+        ("human's end", millimetres(human), HUMAN, False),
+        (f"{label_of(partner)}'s end", millimetres(robot), ROBOT, False),
+        *((each.label, millimetres(_at(trace, each, frame)), INK, False) for each in series),
+        *((each.label, _state(each, frame), COLOURS[each.where], False) for each in hurdles),
+        ("difference" if level else "error", millimetres(error), INK, not hurdles),
+    ]
     pen = ImageDraw.Draw(picture)
-    size, line, wide = 16, 24, 192 if not drawn else 216
+    size, line, wide = 15, 20, 192 if not drawn else 216
     labels = max(letters(size).getlength(label) for label, *_ in rows)
-    wide = max(wide, round(labels) + VALUE)
-    top = 18
-    left = (picture.width - wide) // 2 if shown_body(partner) == PERSON else top
+    values = max(letters(size).getlength(value) for _, value, *_ in rows)
+    wide = max(wide, round(labels) + max(VALUE, round(values) + size))
+    top, margin = 10, 18
+    left = (picture.width - wide) // 2 if shown_body(partner) == PERSON else margin
     for row, (label, value, colour, bold) in enumerate(rows):
         y, font = top + row * line, letters(size, bold=bold)
         pen.text((left, y), label, fill=colour, font=font)
@@ -97,7 +103,7 @@ def readout(
     if episode.failure is not None and frame == len(trace.human_end) - 1:
         pen.rectangle((0, picture.height - line, picture.width, picture.height), fill=INK)
         font = letters(13)
-        reason = _fitted(" ".join(episode.failure.split()), font, picture.width - 2 * top)
+        reason = fitted(" ".join(episode.failure.split()), font, picture.width - 2 * margin)
         place = (picture.width / 2, picture.height - line / 2)
         pen.text(place, reason, fill=PAPER, font=font, anchor="mm")
 
@@ -107,6 +113,15 @@ def _at(trace: Trace, drawn: DrawnSeries, frame: int) -> float:
     return 1000 * float(trace.added[drawn.name][frame])
 
 
-def _millimetres(height: float) -> str:
+def _state(hurdle: DrawnHurdle, frame: int) -> str:
+    """Return when a hurdle opens, its height while it is open, and then the distance missed."""
+    if frame < hurdle.start:
+        return f"in {(hurdle.start - frame) * FRAME:.1f} s"
+    if frame < hurdle.stop:
+        return millimetres(1000 * hurdle.height)
+    return "missed" if hurdle.missed is None else f"off {millimetres(1000 * hurdle.missed)}"
+
+
+def millimetres(height: float) -> str:
     """Return a height in whole millimetres, without a minus sign before zero."""
     return f"{round(height)} mm".replace("-", "\N{MINUS SIGN}")

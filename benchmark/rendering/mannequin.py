@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from colift.benchmark.rendering.solids import Colour, Point, lay, limb
+from colift.benchmark.rendering.solids import Colour, Point, Solids, limb
 
 Place = tuple[float, float, float]
 
@@ -76,8 +76,10 @@ class Mannequin:
 
     Parameters
     ----------
-    client
-        The engine to draw in.
+    solids
+        The solids of the scene.
+    name
+        Name of the person, for those of the solids.
     hands
         Middle between the hands at rest [m].
     facing
@@ -88,8 +90,11 @@ class Mannequin:
         Colour of the shirt.
     """
 
-    def __init__(self, client: int, hands: Point, facing: int, floor: float, shirt: Colour) -> None:
-        self._client = client
+    def __init__(
+        self, solids: Solids, name: str, hands: Point, facing: int, floor: float, shirt: Colour
+    ) -> None:
+        self._solids = solids
+        self._name = name
         self._hands = hands
         self._below = np.array([hands[0], 0.0, floor])
         self._facing = facing
@@ -99,9 +104,9 @@ class Mannequin:
         self._shoulders = [self._point((ahead, side * HALF_SHOULDERS, up)) for side in (-1, 1)]
         self._arms = [
             (
-                limb(client, UPPER_ARM, (0.066, 0.046), shirt),
-                limb(client, FOREARM, (0.042, 0.030), SKIN),
-                limb(client, 0.05, (0.037, 0.033), SKIN),
+                solids.add(f"{name} upper arm", limb(UPPER_ARM, (0.066, 0.046)), shirt),
+                solids.add(f"{name} forearm", limb(FOREARM, (0.042, 0.030)), SKIN),
+                solids.add(f"{name} fist", limb(0.05, (0.037, 0.033)), SKIN),
             )
             for _ in range(2)
         ]
@@ -115,9 +120,9 @@ class Mannequin:
         ):
             hand = self._hands + [0.0, self._facing * side * HALF_GRIP, height]
             elbow, wrist = arm(shoulder, hand, forwards, self._facing * side)
-            lay(self._client, upper, shoulder, elbow)
-            lay(self._client, fore, elbow, wrist)
-            lay(self._client, fist, wrist, hand)
+            self._solids.lay(upper, shoulder, elbow)
+            self._solids.lay(fore, elbow, wrist)
+            self._solids.lay(fist, wrist, hand)
 
     def _point(self, place: Place) -> Point:
         """Return the world's point of a place (ahead of the hands, left of middle, above floor)."""
@@ -128,8 +133,9 @@ class Mannequin:
     def _limb(self, part: Limb, shirt: Colour) -> None:
         first, last = self._point(part.start), self._point(part.stop)
         length = float(np.linalg.norm(last - first))
-        body = limb(self._client, length, part.radii, part.colour or shirt, part.depth)
-        lay(self._client, body, first, last)
+        mesh = limb(length, part.radii, part.depth)
+        body = self._solids.add(f"{self._name} body", mesh, part.colour or shirt)
+        self._solids.lay(body, first, last)
 
 
 def arm(shoulder: Point, hand: Point, forwards: Point, side: int) -> tuple[Point, Point]:

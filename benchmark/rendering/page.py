@@ -14,6 +14,7 @@ from importlib.metadata import version
 from importlib.resources import files
 from typing import Any
 
+from colift.benchmark.rendering.formats import FORMATS
 from jinja2 import (
     ChoiceLoader,
     Environment,
@@ -68,14 +69,16 @@ def templates(package: str) -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    made.filters.update(breakable=_breakable, hash=content_hash)
+    made.filters.update(FORMATS, breakable=_breakable, hash=content_hash)
     made.globals.update(style=Markup(style()), version=version("colift"))
     return made
 
 
-def style() -> str:
-    """Return the style sheet of pages that are one file."""
-    return files(__package__).joinpath("templates", "page.css").read_text(encoding="utf-8")
+def style(*more: str) -> str:
+    """Return the style sheet of pages that are one file, with others of the folder ``static``."""
+    places = (("templates", "page.css"), *(("static", name) for name in more))
+    here = files(__package__)
+    return "".join(here.joinpath(*place).read_text(encoding="utf-8") for place in places)
 
 
 def content_hash(text: str) -> Markup:

@@ -5,7 +5,8 @@ exact normals.
 """
 
 import math
-from typing import Final
+from dataclasses import dataclass, replace
+from typing import Final, Self
 
 import numpy as np
 from colift.benchmark.world.bullet import pybullet
@@ -21,35 +22,122 @@ ARC: Final = 7
 """Rings of each rounded end."""
 
 
-def box(client: int, centre: Point, half: tuple[float, float, float], colour: Colour) -> int:
-    """Return a box of half lengths ``half`` [m]."""
-    shape = pybullet.createVisualShape(
-        pybullet.GEOM_BOX, halfExtents=half, rgbaColor=colour, physicsClientId=client
-    )
-    return _body(client, shape, centre)
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mesh:
+    """A surface of triangles."""
+
+    vertices: Point
+    """(n, 3) [m]."""
+    normals: Point
+    """(n, 3) unit vectors."""
+    triangles: NDArray[np.int64]
+    """(m, 3) indices of vertices, anticlockwise as seen from outside."""
+
+    def moved(self, way: tuple[float, float, float]) -> Self:
+        """Return the same surface elsewhere [m]."""
+        return replace(self, vertices=self.vertices + way)
 
 
-def disc(client: int, centre: Point, radius: float, colour: Colour) -> int:
-    """Return a flat disc [m], seen from above."""
-    rings = np.array([[radius, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]])
-    return _body(client, _revolved(client, rings, 1.0, colour), centre)
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Solid:
+    """A body of one colour, as it was put into an engine."""
+
+    name: str
+    mesh: Mesh
+    colour: Colour
+    """Red, green, blue, opacity."""
 
 
-def limb(
-    client: int, length: float, radii: tuple[float, float], colour: Colour, depth: float = 1.0
-) -> int:
-    """Return a tapered rod with round ends: two balls ``length`` apart, and their tangent cone.
+class Solids:
+    """The solids of a scene.
 
     Parameters
     ----------
     client
         The engine to draw in.
+    """
+
+    def __init__(self, client: int) -> None:
+        self._client = client
+        self.shown: dict[int, Solid] = {}
+        """Each solid by its body in the engine."""
+
+    def add(self, name: str, mesh: Mesh, colour: Colour, centre: Point | None = None) -> int:
+        """Put a solid at a place [m], the origin if none is given, and return its body."""
+        vertices = len(mesh.vertices)
+        shape = pybullet.createVisualShape(
+            pybullet.GEOM_MESH,
+            vertices=mesh.vertices.tolist(),
+            normals=mesh.normals.tolist(),
+            uvs=[[0.0, 0.0]] * vertices,
+            indices=mesh.triangles.ravel().tolist(),
+            rgbaColor=colour,
+            physicsClientId=self._client,
+        )
+        body: int = pybullet.createMultiBody(
+            baseVisualShapeIndex=shape,
+            basePosition=[0.0, 0.0, 0.0] if centre is None else centre.tolist(),
+            physicsClientId=self._client,
+        )
+        self.shown[body] = Solid(name=name, mesh=mesh, colour=colour)
+        return body
+
+    def lay(self, body: int, start: Point, stop: Point) -> None:
+        """Lay a limb from ``start`` towards ``stop`` by the shortest turn from z."""
+        reach = stop - start
+        length = float(np.linalg.norm(reach))
+        x, y, z = reach / length if length else (0.0, 0.0, 1.0)
+        # Half-angle quaternion; a limb pointing straight down is turned about x.
+        turn = np.array([-y, x, 0.0, 1.0 + z])
+        norm = np.linalg.norm(turn)
+        self.place(body, start, turn / norm if norm > 1e-9 else np.array([1.0, 0.0, 0.0, 0.0]))
+
+    def place(self, body: int, at: Point, turn: Point) -> None:
+        """Put a body at a place [m], turned by a quaternion (x, y, z, w)."""
+        pybullet.resetBasePositionAndOrientation(
+            body, at.tolist(), turn.tolist(), physicsClientId=self._client
+        )
+
+
+def box(half: tuple[float, float, float]) -> Mesh:
+    """Return a box of half lengths ``half`` [m]."""
+    faces = []
+    for axis in range(3):
+        for sign in (-1.0, 1.0):
+            normal, first, second = np.roll(np.eye(3), axis, axis=0)
+            corners = [(-1, -sign), (1, -sign), (1, sign), (-1, sign)]
+            square = [sign * normal + a * first + b * second for a, b in corners]
+            faces.append((np.array(square) * half, np.tile(sign * normal, (4, 1))))
+    corner = 4 * np.arange(6)[:, None, None]
+    return Mesh(
+        vertices=np.concatenate([face for face, _ in faces]),
+        normals=np.concatenate([normals for _, normals in faces]),
+        triangles=(corner + np.array([[0, 1, 2], [0, 2, 3]])).reshape(-1, 3),
+    )
+
+
+def disc(radius: float) -> Mesh:
+    """Return a flat disc [m], seen from above."""
+    return _revolved(np.array([[radius, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 1.0]]), 1.0)
+
+
+def cylinder(radius: float, length: float) -> Mesh:
+    """Return a cylinder about z, with its middle at the origin [m]."""
+    top = length / 2
+    rims = [(0.0, -top, 0, -1), (radius, -top, 0, -1), (radius, -top, 1, 0)]
+    rims += [(radius, top, 1, 0), (radius, top, 0, 1), (0.0, top, 0, 1)]
+    return _revolved(np.array(rims), 1.0)
+
+
+def limb(length: float, radii: tuple[float, float], depth: float = 1.0) -> Mesh:
+    """Return a tapered rod with round ends: two balls ``length`` apart, and their tangent cone.
+
+    Parameters
+    ----------
     length
         Distance from the first ball's centre, the origin, along z to the second's [m].
     radii
         Radii of the two balls [m]; they differ by less than ``length``.
-    colour
-        Red, green, blue, opacity.
     depth
         Thickness along x as a fraction of that along y.
     """
@@ -62,24 +150,10 @@ def limb(
         angle = np.linspace(start, stop, ARC)
         cos, sin = np.cos(angle), np.sin(angle)
         rings.append(np.stack([radius * cos, height + radius * sin, cos, sin], axis=1))
-    return _body(client, _revolved(client, np.concatenate(rings), depth, colour), np.zeros(3))
+    return _revolved(np.concatenate(rings), depth)
 
 
-def lay(client: int, body: int, start: Point, stop: Point) -> None:
-    """Lay a limb from ``start`` towards ``stop`` by the shortest turn from z."""
-    reach = stop - start
-    length = float(np.linalg.norm(reach))
-    x, y, z = reach / length if length else (0.0, 0.0, 1.0)
-    # Half-angle quaternion; a limb pointing straight down is turned about x.
-    turn = np.array([-y, x, 0.0, 1.0 + z])
-    norm = np.linalg.norm(turn)
-    quaternion = turn / norm if norm > 1e-9 else np.array([1.0, 0.0, 0.0, 0.0])
-    pybullet.resetBasePositionAndOrientation(
-        body, start.tolist(), quaternion.tolist(), physicsClientId=client
-    )
-
-
-def _revolved(client: int, rings: Point, depth: float, colour: Colour) -> int:
+def _revolved(rings: Point, depth: float) -> Mesh:
     """Return a surface of revolution about z; a ring is radius, height and normal (2)."""
     around = np.linspace(0.0, 2 * math.pi, SIDES, endpoint=False)
     cos, sin = np.cos(around), np.sin(around)
@@ -91,20 +165,8 @@ def _revolved(client: int, rings: Point, depth: float, colour: Colour) -> int:
     first = np.arange(len(rings) - 1)[:, None] * SIDES
     here, there = first + np.arange(SIDES), first + np.roll(np.arange(SIDES), -1)
     triangles = np.stack([here, there, there + SIDES, here, there + SIDES, here + SIDES], axis=-1)
-    shape: int = pybullet.createVisualShape(
-        pybullet.GEOM_MESH,
-        vertices=vertices.reshape(-1, 3).tolist(),
-        normals=normals.reshape(-1, 3).tolist(),
-        uvs=[[0.0, 0.0]] * (len(rings) * SIDES),
-        indices=triangles.ravel().tolist(),
-        rgbaColor=colour,
-        physicsClientId=client,
+    return Mesh(
+        vertices=vertices.reshape(-1, 3),
+        normals=normals.reshape(-1, 3),
+        triangles=triangles.reshape(-1, 3),
     )
-    return shape
-
-
-def _body(client: int, shape: int, position: Point) -> int:
-    body: int = pybullet.createMultiBody(
-        baseVisualShapeIndex=shape, basePosition=position.tolist(), physicsClientId=client
-    )
-    return body

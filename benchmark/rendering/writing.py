@@ -1,10 +1,10 @@
-"""Writing of pictures to files: GIF, MP4 and PNG."""
+"""Writing of pictures to files: GIF, WebP, MP4 and PNG."""
 
 import importlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from colift.base.errors import InputError
@@ -14,6 +14,9 @@ from PIL import Image
 
 COLOURS: Final = 256
 """Colours of a GIF, shared by its pictures, so that none flickers."""
+
+WEBP: Final[Mapping[str, Any]] = {"quality": 80, "kmin": 999, "kmax": 1000}
+"""Quality of a WebP, of 100, and its distance of whole pictures: it holds changes instead."""
 
 SAMPLES: Final = 5
 """Number of pictures from which the colours of a film are chosen."""
@@ -42,17 +45,19 @@ def check_film(path: Path) -> None:
         raise InputError(f"cannot write to {path.parent}: {error.strerror}") from error
 
 
-def write(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+def write(path: Path, pictures: Iterable[Picture], fps: float, *, plays: int = 0) -> None:
     """Write pictures in the format that the suffix names: the whole file, or none.
 
     Parameters
     ----------
     path
-        ``.gif`` or ``.mp4``, a film; ``.png``, exactly one picture.
+        ``.gif``, ``.webp`` or ``.mp4``, a film; ``.png``, exactly one picture.
     pictures
         At least one, all of one shape ``(height, width, 3)``; height and width even for ``.mp4``.
     fps
-        Pictures per second; a GIF rounds their duration to 10 ms.
+        Pictures per second; a GIF rounds their duration to 10 ms, a WebP to 1 ms.
+    plays
+        Number of times that a GIF or WebP plays; 0 is without end.
 
     Raises
     ------
@@ -64,7 +69,7 @@ def write(path: Path, pictures: Iterable[Picture], fps: float) -> None:
     check_film(path)
     partial = _partial(path)
     try:
-        _writer(path)(partial, pictures, fps)
+        _writer(path)(partial, pictures, fps, plays)
         partial.replace(path)
     except OSError as error:
         raise InputError(f"cannot write {path}: {error.strerror or error}") from error
@@ -76,18 +81,37 @@ def _partial(path: Path) -> Path:
     return path.with_name(f".{path.stem}.partial{path.suffix}")
 
 
-def _write_gif(path: Path, pictures: Iterable[Picture], fps: float) -> None:
-    images = [Image.fromarray(picture) for picture in pictures]
-    if not images:
-        raise ValueError("a film needs at least one picture")
+def _write_gif(path: Path, pictures: Iterable[Picture], fps: float, plays: int) -> None:
+    images = _images(pictures)
     chosen = np.linspace(0, len(images) - 1, SAMPLES).round().astype(int)
     sample = Image.fromarray(np.concatenate([np.asarray(images[i]) for i in chosen]))
     palette = sample.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
     first, *rest = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
-    first.save(path, save_all=True, append_images=rest, duration=10 * round(100 / fps), loop=0)
+    # The file has the number of repetitions; a film without it plays once.
+    again: dict[str, Any] = {} if plays == 1 else {"loop": max(plays - 1, 0)}
+    first.save(path, save_all=True, append_images=rest, duration=10 * round(100 / fps), **again)
 
 
-def _write_mp4(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+def _write_webp(path: Path, pictures: Iterable[Picture], fps: float, plays: int) -> None:
+    first, *rest = _images(pictures)
+    first.save(
+        path,
+        save_all=True,
+        append_images=rest,
+        duration=round(1000 / fps),
+        loop=plays,
+        **WEBP,
+    )
+
+
+def _images(pictures: Iterable[Picture]) -> list[Image.Image]:
+    images = [Image.fromarray(picture) for picture in pictures]
+    if not images:
+        raise ValueError("a film needs at least one picture")
+    return images
+
+
+def _write_mp4(path: Path, pictures: Iterable[Picture], fps: float, plays: int) -> None:
     frames = iter(pictures)
     first = next(frames, None)
     if first is None:
@@ -111,20 +135,25 @@ def _write_mp4(path: Path, pictures: Iterable[Picture], fps: float) -> None:
         film.close()
 
 
-def _write_png(path: Path, pictures: Iterable[Picture], fps: float) -> None:
+def _write_png(path: Path, pictures: Iterable[Picture], fps: float, plays: int) -> None:
     drawn = list(pictures)
     if len(drawn) != 1:
         raise ValueError(f"a .png is one picture, got {len(drawn)}")
     Image.fromarray(drawn[0]).save(path, optimize=True)
 
 
-_WRITERS: Final = {".gif": _write_gif, ".mp4": _write_mp4, ".png": _write_png}
+_WRITERS: Final = {
+    ".gif": _write_gif,
+    ".webp": _write_webp,
+    ".mp4": _write_mp4,
+    ".png": _write_png,
+}
 
 SUFFIXES: Final = tuple(_WRITERS)
 """Suffixes of the files to which pictures can be written."""
 
 
-def _writer(path: Path) -> Callable[[Path, Iterable[Picture], float], None]:
+def _writer(path: Path) -> Callable[[Path, Iterable[Picture], float, int], None]:
     if path.suffix not in _WRITERS:
         known = ", ".join(_WRITERS)
         raise InputError(f"cannot write {path}: its suffix must be one of {known}")

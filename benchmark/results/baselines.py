@@ -19,13 +19,14 @@ from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.task import Task
 from colift.benchmark.execution.runner import Run, finished, run_suite
+from colift.benchmark.rendering.style import PEOPLE
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
 
 HUMAN_HUMAN: Final = "human_human"
 """Key of the human-human baseline."""
 
-HUMAN_HUMAN_LABEL: Final = "human-human baseline"
+HUMAN_HUMAN_LABEL: Final = PEOPLE
 """Its name in tables and pictures."""
 
 BEST_KNOWN: Final = "best_known"

@@ -15,7 +15,7 @@ def error(summary: Summary) -> str:
 
 
 def versus_human(summary: Summary) -> str:
-    """Return the ratio to the RMSE of the human-human baseline; empty without this baseline."""
+    """Return the ratio to the RMSE of two people; empty without this baseline."""
     ratio = summary.vs_human
     return "" if ratio is None else f"vs_human {ratio.mean:.2f}{_interval(ratio.ci95)}"
 

@@ -32,7 +32,7 @@ def rougher(
     policy
         Scores of the policy.
     people
-        Scores of the human-human baseline on the same lifts.
+        Scores of two people on the same lifts.
     metrics
         The metrics of their task.
 

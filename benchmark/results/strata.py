@@ -21,7 +21,7 @@ class StratumScore:
     failed: int
     rmse_mm: float
     human_human_rmse_mm: float | None
-    """The human-human baseline's; None without this baseline."""
+    """Two people's; None without this baseline."""
     vs_human: float | None
     """Geometric mean of the ratio of the two, lift by lift; None without this baseline."""
     metrics: Mapping[str, MeanWithMissing]
@@ -61,7 +61,7 @@ def plain_means(metrics: Mapping[str, MeanWithMissing]) -> dict[str, Any]:
 def stratum_scores(scores: ScoreTable, human_human: ScoreTable | None) -> tuple[StratumScore, ...]:
     """Return the means of each stratum, in order of appearance.
 
-    ``human_human`` is the human-human baseline, if it is known.
+    ``human_human`` is of two people, if it is known.
     """
     people = {} if human_human is None else human_human.by_stratum
     return tuple(
@@ -109,7 +109,7 @@ class Spread:
     worst: float
     worst_person: str
     better: int | None
-    """Number of people with whom the mean is below the human-human baseline's; None without it."""
+    """Number of people with whom the mean is below two people's; None without it."""
 
 
 def spread_over_people(strata: Iterable[StratumScore]) -> Spread:
@@ -140,7 +140,7 @@ QUARTILES: Final = (0.0, 0.25, 0.5, 0.75, 1.0)
 
 
 def human_human_mean(strata: Iterable[StratumScore]) -> float | None:
-    """Return the human-human baseline's mean RMSE [mm], if it is known in all of some strata."""
+    """Return two people's mean RMSE [mm], if it is known in all of some strata."""
     some = [(each.human_human_rmse_mm, each.episodes) for each in strata]
     if any(mean is None for mean, _ in some):
         return None

@@ -50,10 +50,10 @@ class Summary:
     rmse_mm_iqm: float
     """Interquartile mean of the RMSE [mm]."""
     vs_human: Estimate | None
-    """RMSE divided by that of the human-human baseline, geometric mean over the lifts; None without
+    """RMSE divided by that of two people, geometric mean over the lifts; None without
     this baseline."""
     rougher: tuple[str, ...] | None
-    """Metrics by which the policy is rougher than the human-human baseline, see :func:`.rougher`;
+    """Metrics by which the policy is rougher than two people, see :func:`.rougher`;
     None if that is not known."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics by name."""
@@ -102,7 +102,7 @@ def summarise(run: Run, scores: ScoreTable, human_human: ScoreTable | None = Non
     run, scores
         The run and its scores.
     human_human
-        The human-human baseline on the same episodes. With it, ``vs_human`` is the geometric mean
+        Two people on the same episodes. With it, ``vs_human`` is the geometric mean
         of the ratio of the two RMSE, lift by lift, with its 95 % interval: 1 is as good as a human
         partner, less is better. Without it, or if only a part of the episodes has been played,
         ``vs_human`` is None.

@@ -25,8 +25,16 @@ TASK: Final = "level"
 
 RECORDED: Final = "recorded"
 
+AS_RECORDED: Final = "as_recorded"
+
+OF_RECORDINGS: Final = (RECORDED, AS_RECORDED)
+"""The behaviours of people in files of recordings: scaled, or at their own height and pace."""
+
 PLAYED: Final = "played"
 """The behaviour of live lifts; it is not registered, since it needs their recorded hands."""
+
+REAL: Final = (*OF_RECORDINGS, PLAYED)
+"""The behaviours of real people."""
 
 
 def make_subject(name: str) -> Subject:
@@ -63,11 +71,11 @@ def make_task(name: str) -> Task:
     return task
 
 
-def _recording(source: str) -> Recording:
+def _recording(source: str, kind: str) -> Recording:
     """Return the recording of ``FILE.csv`` (its first trial) or ``FILE.csv#TRIAL``."""
     path, _, trial = source.partition("#")
     if not path:
-        raise InputError("no recording is named: give recorded:FILE.csv or recorded:FILE.csv#TRIAL")
+        raise InputError(f"no recording is named: give {kind}:FILE.csv or {kind}:FILE.csv#TRIAL")
     recordings = {recording.name: recording for recording in load_recordings(Path(path))}
     if trial and trial not in recordings:
         raise InputError(f"{path} has no trial {trial!r}; it has {', '.join(recordings)}")
@@ -88,7 +96,8 @@ def make_scenario(
     ----------
     behaviour
         A registered human behaviour, with its default parameters. ``recorded:FILE.csv`` is the
-        first trial of a file of recordings, ``recorded:FILE.csv#TRIAL`` the one of that name.
+        first trial of a file of recordings, ``recorded:FILE.csv#TRIAL`` the one of that name;
+        ``as_recorded:`` plays them at their own height and pace.
     subject
         One of the five, or ``draw-N``, a new person by seed N.
     partner, control_period, latency
@@ -109,7 +118,7 @@ def make_scenario(
             f"behaviours take no parameters here: {plain!r} has those of its class, got "
             f"{parameters!r}"
         )
-    recording = _recording(source) if kind == RECORDED else None
+    recording = _recording(source, kind) if kind in OF_RECORDINGS else None
     given = {} if recording is None else {"recording": recording}
     human: Behaviour = make_registered(HUMANS, kind, behaviour_fault, **given)
     return Scenario(

@@ -219,7 +219,7 @@ def make_suite(name: str) -> Suite:
 
 
 def recorded_suite(path: Path) -> Suite:
-    """Return a suite of recorded lifts: each trial once, with the body of another drawn person.
+    """Return a suite of recorded lifts, scaled: each trial once, with the body of a drawn person.
 
     Raises
     ------

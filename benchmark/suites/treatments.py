@@ -18,7 +18,7 @@ Treatments = Mapping[str, Treatment]
 def treatments(suite: Suite) -> Treatments:
     """Return the treatment of each recording of a suite; empty if it has none."""
     return {
-        scenario.trial: treatment_of(scenario.human.recording)
+        scenario.trial: treatment_of(scenario.human)
         for scenario in suite.scenarios
         if isinstance(scenario.human, Recorded)
     }

@@ -1,5 +1,6 @@
 """Tables and text on stdout, without trailing blanks."""
 
+import io
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Final
@@ -15,6 +16,9 @@ Cell = str | Text
 
 WIDEST: Final = 10_000
 """More columns than any table has [characters]."""
+
+COLUMNS: Final = 100
+"""Columns of tables as text."""
 
 UNBROKEN: Final = 18
 """Longest word of a table that stays whole where the terminal is too narrow."""
@@ -106,6 +110,15 @@ def show(*parts: RenderableType, console: Console | None = None) -> None:
             lines = map(_stripped, shown.render_lines(each, options, pad=False))
             segments = [segment for line in lines for segment in (*line, Segment.line())]
             shown.print(Segments(segments), end="", soft_wrap=True)
+
+
+def text_of(*parts: RenderableType) -> str:
+    """Return what :func:`show` prints, :data:`COLUMNS` wide and without colours."""
+    # In Jupyter a console would show the text in the cell instead of writing it to its file.
+    file = io.StringIO()
+    console = Console(file=file, width=COLUMNS, no_color=True, force_jupyter=False, _environ={})
+    show(*parts, console=console)
+    return file.getvalue().strip("\n")
 
 
 def counted(number: int, noun: str) -> str:

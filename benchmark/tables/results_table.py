@@ -38,7 +38,7 @@ TIMES: Final = {
 }
 """The timed parts of a robot's step."""
 
-PEOPLE: Final = "two people: RMSE in mm of the human-human baseline on the same lifts."
+PEOPLE: Final = "two people: RMSE in mm of two simulated people on the same lifts."
 """Meaning of the column beside the RMSE."""
 
 QUARTILES: Final = "quartiles"
@@ -58,6 +58,7 @@ def results_table(content: Results, metrics: Metrics) -> Table:
     people = "two people" if len(shown) <= ON_ONE_LINE else "two\npeople"
     several = spread_over_people(strata).people > 1
     quartiles = (QUARTILES,) if several else ()
+    spread = SPREAD if several else ALONE if summary.rmse_mm.ci95 is None else ""
     return table(
         f"{content.policy} on {content.suite}{_over(content)}",
         ("human", "RMSE mm", people, *quartiles, *(metric.heading for metric in shown)),
@@ -70,8 +71,8 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             styled(("all", *_row(strata, shown, several)), "bold"),
         ],
         caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
-        f"suite digest {content.suite_digest}. {PEOPLE} {SPREAD if several else ALONE} "
-        f"{notes(shown)}",
+        f"suite digest {content.suite_digest}. "
+        + " ".join(filter(None, (PEOPLE, spread, notes(shown)))),
     )
 
 

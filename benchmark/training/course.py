@@ -5,6 +5,7 @@
     DIR/settings.json         trainer and settings; no other training may use the folder
     DIR/seed-0/               the trained policy, a submission
     DIR/seed-0.csv            its curve: error over steps and over seconds
+    DIR/curves.svg            the curves of all seeds, and .pdf and .png, when they are trained
     DIR/seed-0.checkpoint.npz state from which an interrupted training resumes
 
 Every file is replaced as a whole, so that a training may be killed at any time, and a full disk

@@ -63,7 +63,7 @@ def play_agents(make: Callable[[], Agent], lifts: Sequence[tuple[Scenario, int]]
 
 
 def play_pairs(lifts: Sequence[tuple[Scenario, int]]) -> Array:
-    """Return the RMSE [mm] of each lift (n,) of the human-human team, in the twin.
+    """Return the RMSE [mm] of each lift (n,) of two people, in the twin.
 
     The second person is :class:`.SecondPerson`, unchanged: it gets the observations of the task.
     """

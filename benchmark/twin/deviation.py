@@ -27,7 +27,7 @@ POLICIES: Final[Mapping[str, tuple[str, ...]]] = MappingProxyType(
 )
 """For each task, policies that are fixed, and at least one that was learned."""
 
-PAIR: Final = "two humans"
+PAIR: Final = "two people"
 """Name of the human-human team."""
 
 PEOPLE: Final = range(210_000, 210_010)

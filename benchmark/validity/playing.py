@@ -18,6 +18,7 @@ from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.statistics import FloatArray
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.level.task import LEVEL
+from colift.benchmark.validity.beside_pairs import beside_pairs
 from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.sources import Source
 
@@ -104,7 +105,8 @@ def play_source(
     simulated bodies, which take its lifts in turn, have no influence on this.
     """
     suite = source.suite
-    human_human = ScoreTable.of(human_human_run(suite, executor=executor, progress=progress))
+    two_people = human_human_run(suite, executor=executor, progress=progress)
+    human_human = ScoreTable.of(two_people)
     played = _play(policies, suite, executor, progress)
     return Scores(
         name=source.name,
@@ -113,6 +115,9 @@ def play_source(
         errors={name: _errors(run) for name, run in played.items()},
         human_human=np.array(human_human.rmse_mm),
         seed=derive_seed(0, "validity source"),
+        beside=beside_pairs(
+            suite, human_human.units, source.pairs, {**played, HUMAN_HUMAN: two_people}
+        ),
         failed=_failed(played),
     )
 

@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 from colift.benchmark.statistics import FloatArray
 from colift.benchmark.validity.correlation import kendall, spearman
-from colift.benchmark.validity.scores import Quantity, Scores
+from colift.benchmark.validity.quantity import Quantity
+from colift.benchmark.validity.scores import Scores
 
 FEWEST_BETTER: Final = 3
 """Fewest policies that beat two people for a correlation among them."""

@@ -6,6 +6,7 @@ from importlib.metadata import version
 from typing import Any, Final
 
 from colift.base.errors import InputError
+from colift.benchmark.validity.beside_pairs import BesidePairs
 from colift.benchmark.validity.prediction import SuitePrediction, predict
 from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.verdict import SuiteVerdict, judge, order_text, people_text
@@ -148,9 +149,11 @@ def validity_json(validity: Validity) -> dict[str, Any]:
 
 
 def _source(each: SourceValidity) -> dict[str, Any]:
+    beside = each.source.beside
     return {
         **_lifts(each.source),
         "kind": each.kind,
+        **({} if beside is None else {"recorded_pairs": _beside(beside)}),
         "winner": {"policy": each.winner, "best_share": each.best_shares[each.winner]},
         "policies": [
             {**policy, "best_share": each.best_shares[policy["name"]]}
@@ -190,6 +193,15 @@ def _lifts(scores: Scores) -> dict[str, Any]:
         "digest": scores.digest,
         "lifts": scores.lifts,
         "human_human_rmse_mm": asdict(scores.human_human_mm),
+    }
+
+
+def _beside(beside: BesidePairs) -> dict[str, Any]:
+    """Return the RMSE of the recorded pairs, and the ratios to it, of two simulated people, too."""
+    return {
+        "lifts": len(beside.pairs),
+        "rmse_mm": asdict(beside.pairs_mm),
+        "ratios": {name: asdict(beside.ratio(name)) for name in beside.errors},
     }
 
 

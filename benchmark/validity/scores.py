@@ -8,47 +8,17 @@ from typing import Final
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.statistics import (
-    Estimate,
     FloatArray,
     Units,
     geometric_ratio,
     log_ratios,
     mean_of,
 )
-from colift.benchmark.statistics.bootstrap import (
-    expanded_percentile,
-    expansion,
-    resampled_means,
-    resampled_weights,
-)
+from colift.benchmark.statistics.bootstrap import resampled_means, resampled_weights
+from colift.benchmark.validity.beside_pairs import BesidePairs
+from colift.benchmark.validity.quantity import Quantity
 
 RESAMPLES: Final = 2000
-
-
-@dataclass(frozen=True, kw_only=True)
-class Quantity:
-    """A number with its 95 % interval."""
-
-    value: float
-    low: float
-    high: float
-
-    @classmethod
-    def of(cls, estimate: Estimate) -> "Quantity":
-        """Return an estimate with its interval; scores have one, since they have two people."""
-        low, high = estimate.ends
-        return cls(value=estimate.mean, low=low, high=high)
-
-    @classmethod
-    def resampled(cls, value: float, resampled: FloatArray, *units: Units) -> "Quantity":
-        """Return a number with the expanded percentile interval of its resamples, shape (n,).
-
-        If several samples were resampled independently, each with its units, the largest of their
-        expansions is used.
-        """
-        found = expanded_percentile(resampled, max(units, key=expansion))
-        low, high = found or (value, value)
-        return cls(value=float(value), low=low, high=high)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -74,6 +44,8 @@ class Scores:
     """Seed of the resamples; those of independent samples differ."""
     shipped: tuple[str, ...] = ()
     """Policies whose scores were known and not played."""
+    beside: BesidePairs | None = None
+    """The scores beside those of the recorded pairs themselves; None without such pairs."""
     failed: Mapping[str, int] = field(default_factory=dict)
     """Failed lifts of the policies that were played, with the worst RMSE; those without one are
     left out."""

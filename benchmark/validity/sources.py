@@ -6,10 +6,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
 
-from colift.agents.humans import Recorded
+from colift.agents.humans import Recorded, load_trials
 from colift.agents.humans.copies import first_copy
 from colift.base.errors import InputError
+from colift.benchmark.pairs.recorded import PairLift, pair_lifts
 from colift.benchmark.real_lifts.suites import real_lifts
+from colift.benchmark.suites.catalogue import AS_RECORDED
 from colift.benchmark.suites.suite import Suite, plain_name
 
 FEWEST_LIFTS: Final = 2
@@ -26,17 +28,21 @@ class Source:
     name: str
     """Name in tables: that of the file or folder."""
     kind: str
-    """The kind of data: ``recordings``, or ``live`` for lifts of ``colift play``."""
+    """The kind of data: ``recordings``, ``as_recorded`` if they are not scaled, or ``live`` for
+    lifts of ``colift play``."""
     suite: Suite
     """Its lifts, to be played with any policy."""
     left_out: Mapping[str, str] = field(default_factory=dict)
-    """The reason why each other lift of a session does not count, by its name."""
+    """The reason why each other lift does not count, by its name."""
+    pairs: Mapping[str, PairLift] = field(default_factory=dict)
+    """The lifts of which both ends were recorded, by trial, if they are played as recorded."""
 
 
-def source_of(path: Path) -> Source:
+def source_of(path: Path, *, as_recorded: bool = False) -> Source:
     """Return the real lifts in a file of recordings, or in the folder of a session of live lifts.
 
-    The source has the name of the file or of the folder.
+    The source has the name of the file or of the folder. Recordings are scaled and slowed down
+    unless ``as_recorded``.
 
     Raises
     ------
@@ -44,7 +50,7 @@ def source_of(path: Path) -> Source:
         If it cannot be used, or has fewer than :data:`FEWEST_LIFTS` lifts or
         :data:`FEWEST_PEOPLE` people.
     """
-    lifts = real_lifts(path)
+    lifts = real_lifts(path, as_recorded=as_recorded)
     suite = lifts.suite
     if suite.size < FEWEST_LIFTS:
         raise InputError(
@@ -57,19 +63,26 @@ def source_of(path: Path) -> Source:
             f"{path}: all lifts are of {next(iter(people))!r:.80}; intervals are between people, "
             f"and need {FEWEST_PEOPLE} or more"
         )
-    kind = "live" if path.is_dir() else "recordings"
-    return Source(name=plain_name(path.stem), kind=kind, suite=suite, left_out=lifts.left_out)
+    if path.is_dir():
+        return Source(name=plain_name(path.stem), kind="live", suite=suite, left_out=lifts.left_out)
+    return Source(
+        name=plain_name(f"{path.stem} as recorded" if as_recorded else path.stem),
+        kind=AS_RECORDED if as_recorded else "recordings",
+        suite=suite,
+        left_out=lifts.left_out,
+        pairs={each.name: each for each in pair_lifts(load_trials(path)) if as_recorded},
+    )
 
 
-def sources_of(paths: Sequence[Path]) -> tuple[Source, ...]:
-    """Return the sources of some files and folders, in their order.
+def sources_of(paths: Sequence[Path], *, as_recorded: bool = False) -> tuple[Source, ...]:
+    """Return the sources of some files and folders, in their order; see :func:`source_of`.
 
     Raises
     ------
     InputError
         As :func:`source_of`, or if two have the same name or share a lift.
     """
-    found = tuple(source_of(path) for path in paths)
+    found = tuple(source_of(path, as_recorded=as_recorded) for path in paths)
     name, count = Counter(source.name for source in found).most_common(1)[0]
     if count > 1:
         raise InputError(f"{count} sources are called {name!r}; give each source a name of its own")

@@ -6,7 +6,8 @@ from typing import Literal
 
 from colift.benchmark.comparison.formatting import p_value
 from colift.benchmark.validity.prediction import SuitePrediction
-from colift.benchmark.validity.scores import Quantity, Scores
+from colift.benchmark.validity.quantity import Quantity
+from colift.benchmark.validity.scores import Scores
 from colift.benchmark.validity.winner import Rival, rivals
 
 Judgement = Literal["right", "open", "doubtful", "misleading"]

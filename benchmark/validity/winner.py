@@ -6,7 +6,8 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.statistics import holm_correction, paired_difference, permutation_ps_against
-from colift.benchmark.validity.scores import Quantity, Scores
+from colift.benchmark.validity.quantity import Quantity
+from colift.benchmark.validity.scores import Scores
 
 LEVEL: Final = 0.05
 """Largest corrected p value of a significant difference."""

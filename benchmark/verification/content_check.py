@@ -10,6 +10,7 @@ from colift.base.registry import SUITES, entries
 from colift.benchmark.bundle import Bundle, Difference, Results, differences, one_line, results
 from colift.benchmark.bundle.content import with_circumstances
 from colift.benchmark.bundle.files import EPISODES, MANIFEST, RESULTS, TRACES
+from colift.benchmark.bundle.table import HUMAN_HUMAN_RMSE
 from colift.benchmark.channels import Channel, channel_name
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import SCORING
@@ -17,15 +18,17 @@ from colift.benchmark.episode.scenario import CONTROL_PERIOD
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import (
     BASELINES,
+    HUMAN_HUMAN,
     play_baselines,
     shipped_baselines,
 )
+from colift.benchmark.results.lifts import lift_name
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.benchmark.verification.deviation import REFERENCES, SCORES
 from colift.benchmark.verification.verdict import Finding
 
-_FROM_BASELINES: Final = ("baselines", "summary.vs_human", "human_human_rmse_mm")
+_FROM_BASELINES: Final = ("baselines", "summary.vs_human", HUMAN_HUMAN_RMSE)
 
 
 def played_label(suite: Suite, channel: Channel | None) -> str:
@@ -84,7 +87,7 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
     An incomplete run is a fault in any case: there is no score on part of a suite.
     """
     names = [
-        _name(scene.behaviour, scene.subject.name, scene.trial, seed)
+        one_line(lift_name(scene.behaviour, scene.subject.name, scene.trial, seed))
         for scene in suite.scenarios
         for seed in suite.seeds
     ]
@@ -105,11 +108,7 @@ def episode_findings(bundle: Bundle, suite: Suite) -> Iterator[Finding]:
 
 def episode_name(episode: Episode) -> str:
     """Return the name of an episode, such as ``pause/S3 seed 4``."""
-    return _name(episode.behaviour, episode.subject, episode.trial, episode.seed)
-
-
-def _name(behaviour: str, subject: str, trial: str, seed: int) -> str:
-    return f"{one_line('/'.join(filter(None, (behaviour, subject, trial))))} seed {seed}"
+    return one_line(lift_name(episode.behaviour, episode.subject, episode.trial, episode.seed))
 
 
 def rebuilt(bundle: Bundle, run: Run, executor: Executor | None) -> Results:
@@ -152,10 +151,18 @@ def score_findings(bundle: Bundle, run: Run, content: Results, *, exact: bool) -
     """
     tolerance = 0.0 if exact else SCORES
     played = not exact and shipped_baselines(run.suite) is None
-    for claim, true in zip(bundle.episodes, run.episodes, strict=True):
-        scores = (dict(each.scores) for each in (claim, true))
+    people = content.baselines.get(HUMAN_HUMAN)
+    if bundle.human_human_mm is not None and people is None:
+        message = f"{HUMAN_HUMAN_RMSE} is there, but {RESULTS} has no {HUMAN_HUMAN}"
+        yield Finding(file=EPISODES, message=message)
+    for row, (claim, true) in enumerate(zip(bundle.episodes, run.episodes, strict=True)):
+        scores = [dict(each.scores) for each in (claim, true)]
+        if bundle.human_human_mm is not None and people is not None:
+            scores[0][HUMAN_HUMAN_RMSE] = bundle.human_human_mm[row]
+            scores[1][HUMAN_HUMAN_RMSE] = people.rmse_mm[bundle.indices[row]]
         for difference in differences(*scores, tolerance=tolerance):
-            yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))
+            if not (played and _near(difference)):
+                yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))
     plain = json.loads(json.dumps(content.plain()))
     for difference in differences(bundle.results, plain, tolerance=tolerance):
         if not (played and _near(difference)):

@@ -2,7 +2,7 @@
 
 import dataclasses
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Final
@@ -74,8 +74,8 @@ def verify(
         findings += [*suite_findings(bundle, run.suite), *episode_findings(bundle, run.suite)]
     except InputError as error:
         return Verdict(findings=(*findings[: MOST_FINDINGS - 1], _malformed(error)))
-    other = _other_platform(bundle)
-    same_platform = set(other) <= set(POLICIES_ONLY)
+    other = other_platform(bundle)
+    same_platform = is_same(other)
     checked = simulate(
         bundle, run.suite, same_platform=same_platform, executor=executor, progress=progress
     )
@@ -115,7 +115,12 @@ def _malformed(error: InputError) -> Finding:
     return Finding(file=file, message=message) if known else Finding(file="bundle", message=text)
 
 
-def _other_platform(bundle: Bundle) -> dict[str, tuple[str, str]]:
+def is_same(other: Collection[str]) -> bool:
+    """Return whether lifts are equal to the bit on platforms with these differences."""
+    return set(other) <= set(POLICIES_ONLY)
+
+
+def other_platform(bundle: Bundle) -> dict[str, tuple[str, str]]:
     """Return the differences of the platforms by name: the bundle's entry, and the one here."""
     there, here = bundle.platform, fingerprint()
     return {

@@ -23,7 +23,10 @@ def calibrate_setup(
     ],
     as_json: AsJson = False,
 ) -> None:
-    """Estimate latency, sag and noise from trials, as numbers for the simulated world."""
+    """Estimate latency, sag and noise from trials, as numbers for the simulated world.
+
+    Example: colift nao calibrate trials/lift-01.csv trials/lift-02.csv
+    """
     found = estimate_setup([read_trial(path) for path in recordings])
     if as_json:
         plain = {

@@ -45,7 +45,10 @@ def check_setup(
     robot_markers: RobotMarkers = "R1,R2",
     up: UpAxis = "Z",
 ) -> None:
-    """Check a robot and a motion-capture system, and list what is missing; nothing moves."""
+    """Check a robot and a motion-capture system, and list what is missing; nothing moves.
+
+    Example: colift nao check --robot tcp://nao.local:9559 --mocap lsl:table
+    """
     layout = layout_of(human_markers, robot_markers, up)
     console = Console()
     well = True

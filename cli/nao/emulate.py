@@ -54,6 +54,8 @@ def emulate(
     """Emulate a laboratory over libqi and Lab Streaming Layer, until Ctrl-C.
 
     The person begins a lift whenever the robot says "Go".
+
+    Example: colift nao emulate --human pause --subject S3
     """
     conditions = Conditions(
         scenario=make_scenario(human, subject),

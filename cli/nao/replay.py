@@ -27,6 +27,8 @@ def replay_recording(
 
     Exit code 1 if a command differs. Another policy, too, observes the recording: its commands do
     not change the observations.
+
+    Example: colift nao replay trials/lift-01.csv
     """
     recorded = read_trial(recording)
     spec = checked_policy(policy or recorded.policy, isolation)

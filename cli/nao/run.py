@@ -110,6 +110,8 @@ def run_on_robot(
     Exit code 0: done; 2: wrong usage or set-up. A stopped trial: 10 by the operator or a hang-up,
     11 robot lost, 12 motion capture lost, 13 motion capture not plausible, 14 by the policy, 15 by
     the motors or another program that commands the robot, 16 by a pause of this computer.
+
+    Example: colift nao run blend --trials 3 --robot world:smooth/S1 --record trials
     """
     spec = checked_policy(policy, isolation)
     settings = LoopSettings(period=control_period, latency=latency)

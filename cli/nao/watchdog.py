@@ -19,6 +19,8 @@ def watch_robot(
 
     'colift nao run' starts a watchdog of its own. This one is for another machine: it also acts
     when the machine of the client, or its network, fails.
+
+    Example: colift nao watchdog --robot tcp://nao.local:9559
     """
     arm, button = open_robot(robot), StopButton()
     tell(f"watching the robot {describe_robot(arm.session)}, until Ctrl-C")

@@ -25,7 +25,7 @@ def board_table(
 ) -> Table:
     """Return a season's table, by rank.
 
-    The human-human baseline is placed by its mean.
+    Two people are placed by their mean.
 
     Parameters
     ----------

@@ -3,7 +3,9 @@
 from collections.abc import Iterable
 from typing import Any, Final
 
-from colift.benchmark.suites.catalogue import PLAYED, RECORDED
+from colift.agents.humans import AsRecorded
+from colift.agents.humans.as_recorded import fastest_of
+from colift.benchmark.suites.catalogue import OF_RECORDINGS, PLAYED
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import plain_treatments, treatments
 from colift.benchmark.tables.printing import counted, show
@@ -20,13 +22,21 @@ def recordings_text(suite: Suite) -> str:
     lifts, behaviour = counted(suite.size, "lift"), suite.scenarios[0].behaviour
     if behaviour == PLAYED:
         return f"Read {lifts}, played as they were."
-    if behaviour != RECORDED:
+    if behaviour not in OF_RECORDINGS:
         return ""
     found = treatments(suite).values()
-    inverted = sum(each.inverted for each in found)
     parts = [
         f"{_range((each.rate_hz for each in found), '.0f')} Hz",
         f"moving {_range((each.range_m for each in found), '.2f')} m",
+    ]
+    humans = [each.human for each in suite.scenarios if isinstance(each.human, AsRecorded)]
+    if humans:
+        fastest = _range((fastest_of(human.recording) for human in humans), ".2f")
+        hand = suite.hand_speed
+        parts += [f"fastest {fastest} m/s (the robot's hand: {hand:g})", "played as recorded"]
+        return f"Read {lifts}: {', '.join(parts)}."
+    inverted = sum(each.inverted for each in found)
+    parts += [
         f"scaled {_range((each.scale for each in found), '.2f')}",
         f"slowed down {_range((each.slow_down for each in found), '.1f')} times",
         f"{inverted} inverted" + (" (further down than up)" if inverted else ""),

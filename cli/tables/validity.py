@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterator
 from typing import Final, Literal
 
 from colift.benchmark.comparison.formatting import digits, p_value
+from colift.benchmark.comparison.tables import BASELINE
+from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.tables.printing import counted, styled, table
 from colift.benchmark.validity.prediction import BetterThanPeople
+from colift.benchmark.validity.quantity import Quantity
 from colift.benchmark.validity.report import SourceValidity, SuiteOnSource, Validity
-from colift.benchmark.validity.scores import Quantity, Scores
-from colift.cli.tables.comparison import BASELINE
+from colift.benchmark.validity.scores import Scores
 from rich.table import Table
 
 HEADING: Final = 12
@@ -37,7 +39,20 @@ def heading(each: SourceValidity) -> str:
         f"{source.name}: {counted(source.lifts, 'lift')}, "
         f"two people {_mm(source.human_human_mm)} mm. "
         f"Best policy: {best}, {_mm(source.mean_mm(best))} mm; it is the best in "
-        f"{each.best_shares[best]:.0%} of resamples."
+        f"{each.best_shares[best]:.0%} of resamples.{_pairs(source, best)}"
+    )
+
+
+def _pairs(source: Scores, best: str) -> str:
+    """Return a sentence on the recorded pairs themselves; empty if there are none."""
+    beside = source.beside
+    if beside is None:
+        return ""
+    return (
+        f" The recorded pairs themselves: {_mm(beside.pairs_mm)} mm "
+        f"({_interval(beside.pairs_mm)}); in the same part of the lifts, {best} has "
+        f"{_quantity(beside.ratio(best))} of that, the simulated two people "
+        f"{_quantity(beside.ratio(HUMAN_HUMAN))}."
     )
 
 

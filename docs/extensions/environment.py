@@ -2,7 +2,8 @@
 
 ``environment`` is the table of its agents and spaces; ``observation AGENT`` the index table of an
 agent's observation, with the names, meanings and units of the index class and the bounds of the
-space; ``arguments MODULE:FUNCTION`` the table of a function's arguments.
+space; ``senses TASK`` the robot's observation and action in a task; ``arguments MODULE:FUNCTION``
+the table of a function's arguments.
 """
 
 import inspect
@@ -12,7 +13,11 @@ from typing import Any, Final
 
 import colift
 import numpy as np
+from colift.agents.actions import action_limit
 from colift.agents.agent import HumanObservation, RobotObservation
+from colift.agents.senses import SIGHT, TOUCH
+from colift.benchmark.episode.scenario import CONTROL_PERIOD
+from colift.benchmark.suites.catalogue import make_task
 from docutils import nodes
 from gymnasium.spaces import Box
 from markdown_text import attribute_docs, from_docstring, table
@@ -86,6 +91,25 @@ class ObservationTable(SphinxDirective):
         return index, f"`{name}`", UNIT.sub("", meaning), unit[1], _range(low[0], high[0])
 
 
+class Senses(SphinxDirective):
+    """The robot's observation in a task, number by number, and its action."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the table."""
+        task = make_task(self.arguments[0])
+        every = (*SIGHT, *(TOUCH if task.touch else ()), *task.senses)
+        rows = [
+            (f"{place}&nbsp;`{each.name.upper()}`", each.meaning, f"{each.noise:g}")
+            for place, each in enumerate(every)
+        ]
+        most = action_limit(CONTROL_PERIOD)
+        change = f"change of the hand's command [m], within {_range(-most, most)}"
+        head = ("Observation", "Meaning", "Noise")
+        return self.parse_text_to_nodes(table(head, [*rows, ("**Action**", change, "")]))
+
+
 class Arguments(SphinxDirective):
     """The arguments of a function: defaults from its signature, meanings from its docstring."""
 
@@ -119,4 +143,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("arguments", Arguments)
     app.add_directive("environment", Environment)
     app.add_directive("observation", ObservationTable)
+    app.add_directive("senses", Senses)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -12,6 +12,7 @@ ORDER: Final = (
     "plot_people.py",
     "plot_recording.py",
     "plot_pairs.py",
+    "plot_report.py",
     "plot_smoothness.py",
     "plot_latency.py",
     "plot_speed.py",

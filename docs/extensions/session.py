@@ -8,13 +8,19 @@ import re
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 from docutils import nodes
 from docutils.parsers.rst import directives
 from page_session import Session
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
+
+LOADING: Final = 120
+"""Longest time that a page may take to be shown [s]: others are built at the same time."""
+
+LANGUAGES: Final = {".py": "python", ".toml": "toml", ".urdf": "xml"}
+"""Languages of files by their suffixes."""
 
 
 class _InSession(SphinxDirective):
@@ -38,20 +44,31 @@ class _InSession(SphinxDirective):
 
 
 class File(_InSession):
-    """Write the content to a file of the page's folder, and show it with its name."""
+    """Write the content to a file of the page's folder, and show it with its name.
+
+    Without content, the file is that of the same name in ``examples/tutorials``.
+    """
 
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
         """Write and show the file."""
         name = self.arguments[0]
+        text = "\n".join(self.content) or self._stored(name)
         path = self.session.path / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text("\n".join(self.content) + "\n", encoding="utf-8")
-        language = {".py": "python", ".toml": "toml", ".csv": "text"}.get(path.suffix, "text")
+        path.write_text(text + "\n", encoding="utf-8")
+        language = LANGUAGES.get(path.suffix, "text")
         container = nodes.container("", literal_block=True, classes=["literal-block-wrapper"])
-        container += [nodes.caption(name, name), self.block("\n".join(self.content), language)]
+        container += [nodes.caption(name, name), self.block(text, language)]
         return [container]
+
+    def _stored(self, name: str) -> str:
+        path = Path(self.env.srcdir).parent / "examples" / "tutorials" / name
+        if not path.is_file():
+            raise self.severe(f"{name} has no content, and there is no {path}")
+        self.env.note_dependency(path)
+        return path.read_text(encoding="utf-8").rstrip("\n")
 
 
 class Run(_InSession):
@@ -155,6 +172,7 @@ class Screenshot(Picture):
         with sync_playwright() as playwright:
             browser = playwright.chromium.launch(executable_path=shutil.which("chromium"))
             page = browser.new_page(viewport=size)
+            page.set_default_timeout(1000 * LOADING)
             response = page.goto(self.session.real(address), wait_until="networkidle")
             if response is None or not response.ok:
                 raise self.severe(f"{address} cannot be shown: {response and response.status}")

@@ -44,7 +44,7 @@ if __name__ == "__main__":
         "colift/Lift-v0",
         n_envs=8,
         seed=0,
-        env_kwargs={"scenario": "any", "subject": "draw", "reward": "score"},
+        env_kwargs={"behaviour": "any", "subject": "draw", "reward": "score"},
         wrapper_class=training_view,
         wrapper_kwargs={"steps": STEPS},
     )

@@ -229,7 +229,7 @@ class Board:
     def ranking(self, season: str | None = None) -> "DataFrame":
         """Return the ranked rows of a season as a data frame, best first.
 
-        Its columns are :func:`.standings.columns`: RMSE and its ratio to the human-human baseline
+        Its columns are :func:`.standings.columns`: RMSE and its ratio to two people
         are those of the hidden episodes.
 
         Raises

@@ -35,7 +35,7 @@ class ImportedSeason:
     """With the secret. ``current`` states whether it also takes submissions."""
     entries: Sequence[PlayedEntry]
     human_human: ScoreTable
-    """The human-human baseline on the hidden episodes."""
+    """Two people on the hidden episodes."""
     references: Mapping[str, ScoreTable] = field(default_factory=dict)
     """The references on the hidden episodes, by name."""
 

@@ -54,11 +54,11 @@ class RankedRow:
 
 @dataclass(frozen=True, kw_only=True)
 class UnrankedScores:
-    """The human-human baseline, or a reference, on a season's hidden episodes."""
+    """Two people, or a reference, on a season's hidden episodes."""
 
     rmse_mm: Estimate
     ratio: float
-    """``vs_human``; 1 for the human-human baseline."""
+    """``vs_human``; 1 for two people."""
     means: Mapping[str, float | None]
     """Means of the other metrics of a board, by name."""
 

@@ -3,6 +3,7 @@
 import hashlib
 import re
 import secrets
+from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Final
@@ -35,27 +36,37 @@ class Tokens:
     board: Board
 
     def add(self, name: str) -> str:
-        """Return a new token for a submitter: 256 random bits, which cannot be shown again.
+        """Return a new token for a submitter; see :meth:`add_all`."""
+        return self.add_all([name])[name]
+
+    def add_all(self, names: Sequence[str]) -> dict[str, str]:
+        """Return a new token for each submitter: 256 random bits, which cannot be shown again.
 
         Raises
         ------
         InputError
-            If the name is malformed, or has a token that was not revoked.
+            If a name is malformed, there twice, or has a token that was not revoked; then nobody
+            gets one.
         """
-        if not NAME.fullmatch(name) or name in (LOCAL, BUILTIN):
-            raise InputError(
-                f"{name!r} must be letters, digits and _.@+-, at most 64, not {LOCAL} or {BUILTIN}"
-            )
-        token = PREFIX + secrets.token_urlsafe(32)
-        with self.board.database.writing() as connection:
-            if connection.scalar(sa.select(tokens.c.number).where(_active(name))) is not None:
-                raise InputError(f"{name} has a token; revoke it first")
-            connection.execute(
-                sa.insert(tokens).values(
-                    name=name, sha256=_hash(token), added_at=self.board.clock()
+        for name in names:
+            if not NAME.fullmatch(name) or name in (LOCAL, BUILTIN):
+                raise InputError(
+                    f"{name!r} must be letters A to Z, digits and _.@+-, at most 64, not {LOCAL} "
+                    f"or {BUILTIN}"
                 )
-            )
-        return token
+            if names.count(name) > 1:
+                raise InputError(f"{name} is named twice; a submitter has one token")
+        made = {name: PREFIX + secrets.token_urlsafe(32) for name in names}
+        with self.board.database.writing() as connection:
+            for name, token in made.items():
+                if connection.scalar(sa.select(tokens.c.number).where(_active(name))) is not None:
+                    raise InputError(f"{name} has a token; revoke it first")
+                connection.execute(
+                    sa.insert(tokens).values(
+                        name=name, sha256=_hash(token), added_at=self.board.clock()
+                    )
+                )
+        return made
 
     def revoke(self, name: str) -> None:
         """Revoke a submitter's token, effective at once.

@@ -106,7 +106,7 @@ def evaluate_entrant(
     public = run_suite(entrant.policy, season.suite, **playing)
     baselines = _baselines(season, executor, watch)
     content = results(public, baselines)
-    write_bundle(bundle, public, content.plain())
+    write_bundle(bundle, public, content.plain(), human_human=baselines[HUMAN_HUMAN])
     if all(episode.failure is not None for episode in public.episodes):
         watch.output(public.episodes[0].log)
         reasons = "; ".join(failure_lines(public.episodes)[:3])
@@ -199,7 +199,7 @@ def play_human_human(
         As :func:`evaluate`.
     """
     watch = watch or Callbacks()
-    watch.stage("human-human baseline")
+    watch.stage("two people")
     return ScoreTable.of(human_human_run(season.hidden, executor=executor, progress=watch.progress))
 
 

@@ -8,9 +8,7 @@ from typing import Final, Literal
 from colift.base.errors import InputError
 from colift.benchmark.episode.loop import Episode
 
-Stage = Literal[
-    "human-human baseline", "check", "public run", "audit", "verification", "hidden run"
-]
+Stage = Literal["two people", "check", "public run", "audit", "verification", "hidden run"]
 """Stage of an evaluation."""
 
 

@@ -24,7 +24,7 @@ def public_scores(results: Results) -> PublicScores:
     Parameters
     ----------
     results
-        Its results, with the human-human baseline among the baselines.
+        Its results, with two people among the baselines.
     """
     summary = results.summary
     return PublicScores(
@@ -51,7 +51,7 @@ def hidden_scores(run: Run, human_human: ScoreTable) -> HiddenScores:
     run
         The policy's complete run.
     human_human
-        The human-human baseline on the same episodes.
+        Two people on the same episodes.
     """
     scores = ScoreTable.of(run)
     summary = summarise(run, scores, human_human)
@@ -74,7 +74,7 @@ def gap(hidden: Paired, public: Paired) -> Estimate:
     Parameters
     ----------
     hidden, public
-        The policy's RMSE and that of the human-human baseline, on hidden and on public lifts.
+        The policy's RMSE and that of two people, on hidden and on public lifts.
     """
     difference = difference_of_means(
         hidden.log_ratios, hidden.units, public.log_ratios, public.units
@@ -90,7 +90,7 @@ def _failures(scores: ScoreTable) -> Counter[str]:
 
 def _known(ratio: Estimate | None) -> Estimate:
     if ratio is None:
-        raise ValueError("the human-human baseline of this run is missing")
+        raise ValueError("two people are missing from this run")
     return ratio
 
 

@@ -3,42 +3,10 @@
 from datetime import UTC, datetime, timedelta
 from typing import Final
 
-from colift.benchmark.statistics import Estimate
+from colift.base.tex import tex
+from colift.benchmark.rendering.formats import number
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.metrics import sort_key
-
-NONE: Final = "\N{EN DASH}"
-"""Shown for a missing number."""
-
-MINUS: Final = "\N{MINUS SIGN}"
-
-TEX: Final = {
-    "\\": r"\textbackslash{}",
-    "~": r"\textasciitilde{}",
-    "^": r"\textasciicircum{}",
-    **{letter: f"\\{letter}" for letter in "&%$#_{}"},
-}
-"""Characters that TeX would take for a command, escaped."""
-
-
-def number(value: float | None, places: int = 1) -> str:
-    """Return a number with a given number of decimals."""
-    if value is None:
-        return NONE
-    text = f"{value:.{places}f}"
-    return text.lstrip("-") if float(text) == 0 else text.replace("-", MINUS)
-
-
-def signed(value: float | None, places: int = 1) -> str:
-    """Return a number with its sign."""
-    text = number(value, places)
-    return f"+{text}" if value is not None and float(f"{value:.{places}f}") > 0 else text
-
-
-def interval(estimate: Estimate, places: int = 1) -> str:
-    """Return a 95 % interval as text; empty if there is none, or it has no width."""
-    low, high = estimate.ends
-    return f"{number(low, places)} to {number(high, places)}" if high > low else ""
 
 
 def p_text(p: float) -> str:
@@ -71,11 +39,6 @@ def duration(time: timedelta) -> str:
     return f"{hours} h {minutes} min" if hours else f"{minutes} min"
 
 
-def words(name: str) -> str:
-    """Return a name of the code, such as ``changing_goal``, as words."""
-    return name.replace("_", " ")
-
-
 def mib(size: int) -> str:
     """Return a number of bytes in MiB."""
     return f"{size / 1048576:g} MiB"
@@ -91,27 +54,18 @@ def badge_text(standing: RankedRow) -> str:
     )
 
 
-def tex(text: str) -> str:
-    """Return a text escaped for TeX."""
-    return "".join(TEX.get(letter, letter) for letter in text)
-
-
 FILTERS: Final = {
     each.__name__: each
     for each in (
-        number,
-        signed,
-        interval,
         p_text,
         percent,
         day,
         minute,
         duration,
-        words,
         mib,
         badge_text,
         tex,
         sort_key,
     )
 }
-"""The formats by name, for templates."""
+"""These formats by name, for templates; those of :mod:`.rendering.formats` are there, too."""

@@ -3,10 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Final
 from urllib.parse import quote
 
 from colift.leaderboard.pages.table import PAGES
 from colift.leaderboard.views.page import Page
+
+STATIC: Final = (("colift.benchmark.rendering", "static"), ("colift.leaderboard", "static"))
+"""The packages and their folders with the styles, scripts and images of the pages."""
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from colift.leaderboard.pages.table import NAVIGATION
 from colift.leaderboard.records.metrics import board_metrics, picture_axes, suite_metrics
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.replays.html import script_json
-from colift.leaderboard.views.page import Page, Visit, find_season
+from colift.leaderboard.views.page import NAME, Page, Visit, find_season
 from colift.leaderboard.views.task import task_view
 from jinja2 import Environment
 from markupsafe import Markup
@@ -65,7 +65,13 @@ def show(page: Page, links: Links, visit: Visit, values: Mapping[str, str]) -> s
     made = page.view(visit, **values)
     if isinstance(made, str | bytes):
         return made
-    content = {"page": page.name, "season": find_season(visit.board), **made}
+    content = {
+        "page": page.name,
+        "season": find_season(visit.board),
+        "board_name": visit.name,
+        "origin": visit.origin,
+        **made,
+    }
     return render_page(content.pop("template", page.template), links, **content)
 
 
@@ -114,6 +120,6 @@ def _environment() -> Environment:
     made = templates(__package__)
     made.filters.update(FILTERS, svg=svg, prose=prose)
     made.filters["data"] = lambda content: Markup(script_json(content))
-    made.globals.update(navigation=NAVIGATION, page="")
+    made.globals.update(navigation=NAVIGATION, page="", board_name=NAME, origin="")
     made.globals.update(rougher_words=ROUGHER, rougher_meaning=MEANING)
     return made

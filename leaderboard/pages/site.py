@@ -9,7 +9,7 @@ from typing import Final
 
 from colift.base.errors import InputError
 from colift.leaderboard.core.board import Board
-from colift.leaderboard.pages.links import Links
+from colift.leaderboard.pages.links import STATIC, Links
 from colift.leaderboard.pages.rendering import render_page, show
 from colift.leaderboard.pages.table import PAGES
 from colift.leaderboard.records.season import SeasonInfo
@@ -17,7 +17,14 @@ from colift.leaderboard.replays.html import replay_files
 from colift.leaderboard.storage.archive import pack_archive
 from colift.leaderboard.views.asked import ROWS
 from colift.leaderboard.views.lifts import is_whole
-from colift.leaderboard.views.page import NoPageError, Page, Visit, find_season, ordered_seasons
+from colift.leaderboard.views.page import (
+    NAME,
+    NoPageError,
+    Page,
+    Visit,
+    find_season,
+    ordered_seasons,
+)
 from colift.leaderboard.views.replays import replays_in
 from colift.leaderboard.views.suites import season_suite
 
@@ -25,8 +32,8 @@ MARK: Final = "colift-site.txt"
 """Name of the file that marks a folder as a site, which another one may replace."""
 
 
-def write_site(board: Board, folder: Path) -> None:
-    """Write the pages of a board into a folder; replace an older site there.
+def write_site(board: Board, folder: Path, name: str = NAME) -> None:
+    """Write the pages of a board into a folder under its name; replace an older site there.
 
     Readers of the folder see the older one until the new one is complete.
 
@@ -41,7 +48,7 @@ def write_site(board: Board, folder: Path) -> None:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".site-") as temporary:
             made = Path(temporary) / "site"
-            _write(board, made)
+            _write(board, made, name)
             if folder.exists():
                 folder.rename(Path(temporary) / "older")
             made.rename(folder)
@@ -49,13 +56,14 @@ def write_site(board: Board, folder: Path) -> None:
         raise InputError(f"cannot write {folder}: {error.strerror}") from error
 
 
-def _write(board: Board, folder: Path) -> None:
+def _write(board: Board, folder: Path, name: str) -> None:
     (folder / "data").mkdir(parents=True)
     (folder / MARK).write_text("The pages of a colift board.\n", encoding="utf-8")
-    with as_file(files("colift.leaderboard") / "static") as static:
-        shutil.copytree(static, folder / "static")
+    for package, inside in STATIC:
+        with as_file(files(package) / inside) as static:
+            shutil.copytree(static, folder / "static", dirs_exist_ok=True)
     seasons = ordered_seasons(board)
-    links, visit = Links(current=seasons[0].name), Visit(board=board)
+    links, visit = Links(current=seasons[0].name), Visit(board=board, name=name)
     for info in seasons:
         board.standings(info.name)  # With its own ranks, for all pages.
         _write_bundles(board, info, links, folder)
@@ -75,7 +83,8 @@ def _write_page(
         if not page.menu:
             return
         season = find_season(visit.board, values.get("season"))
-        content = render_page("missing.html", links, season=season, message=str(error))
+        told = {"season": season, "board_name": visit.name, "message": str(error)}
+        content = render_page("missing.html", links, **told)
     raw = content.encode() if isinstance(content, str) else content
     (folder / links.to(page, *values.values())).write_bytes(raw)
 

@@ -44,7 +44,7 @@ class PlayedSeason:
     suite_digest: str
     began_at: datetime
     human_human: ScoreTable
-    """The human-human baseline on the hidden episodes."""
+    """Two people on the hidden episodes."""
     references: Mapping[str, ScoreTable]
     """The references on the hidden episodes, by name."""
     played: tuple[PlayedEntry, ...]

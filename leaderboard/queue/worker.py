@@ -45,6 +45,7 @@ from colift.leaderboard.records.job import Job
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.records.season import BoardEntry
 from colift.leaderboard.records.times import utc_second
+from colift.leaderboard.replays.chosen import replays_of
 
 log: Final = logging.getLogger("colift.worker")
 
@@ -123,8 +124,9 @@ class Worker:
         except LostError as lost:
             self._log(claimed, str(lost))
         now = Queue(self._board).job(claimed.id)
-        if now is not None and now.state == "done":
-            self._board.standings(now.season)  # Computes the ranks before a reader looks.
+        if now is not None and now.state == "done":  # Before a reader looks.
+            self._board.standings(now.season)
+            self._make_replays(now)
         return now
 
     def rescore(
@@ -163,6 +165,12 @@ class Worker:
             Decisions(self._board).rescore(season, result.row, result.hidden_rmse_mm, who, why)
             self._board.store.place_bundle(season, digest, made)
         return result.row
+
+    def _make_replays(self, job: Job) -> None:
+        bundle = self._board.bundle(job.season, job.submission)
+        if bundle is not None:
+            with contextlib.suppress(InputError):
+                replays_of(bundle, job.name)
 
     def _work(self, job: Job, watch: Callbacks) -> None:
         """Evaluate a job and record its outcome."""

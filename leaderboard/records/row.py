@@ -24,7 +24,7 @@ class PublicScores:
     rmse_mm: Estimate
     """Mean RMSE [mm]."""
     vs_human: Estimate
-    """Ratio of the RMSE to the human-human baseline's, geometric mean over the lifts: 1 is as good
+    """Ratio of the RMSE to two people's, geometric mean over the lifts: 1 is as good
     as a human partner."""
     metrics: Mapping[str, MeanWithMissing]
     """The other metrics of a board by name; see :func:`.board_metrics`."""

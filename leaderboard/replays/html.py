@@ -14,22 +14,17 @@ from colift.benchmark.rendering.page import render, style
 from colift.leaderboard.replays.geometry import geometry
 from markupsafe import Markup
 
-SCRIPTS: Final = (
-    "replay-words.js",
-    "replay-lift.js",
-    "replay-bodies.js",
-    "replay-scene.js",
-    "replay-curves.js",
-    "replay-charts.js",
-    "replay.js",
-)
+SCENE: Final = ("replay-words.js", "replay-lift.js", "replay-bodies.js", "replay-scene.js")
+"""The scripts that draw a lift, in the order in which they are loaded."""
+
+SCRIPTS: Final = (*SCENE, "replay-curves.js", "replay-charts.js", "replay.js")
 """The scripts of the player, in the order in which they are loaded."""
 
 STYLE: Final = "replay.css"
 
 KEYS: Final = (
     "Keys: space plays and pauses; the arrows move by one decision of the robot, with shift by a "
-    "second; comma and full stop move by a frame; G shows or hides the human-human baseline."
+    "second; comma and full stop move by a frame; G shows or hides the second of two people."
 )
 """Use of the player by keyboard."""
 
@@ -58,7 +53,7 @@ def replay_page(replays: Sequence[Mapping[str, Any]]) -> str:
     if not replays:
         raise ValueError("there must be a replay")
     first = replays[0]
-    title = f"{first['policy']} lifts a table with a human"
+    title = f"{first['policy']} lifts a table with a person"
     suite = f"Suite {first['suite']}, digest {first['suite_digest']}. " if first["suite"] else ""
     return render(
         __package__,

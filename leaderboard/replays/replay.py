@@ -27,6 +27,10 @@ goal_error_mm            only of live lifts: how far the hand was from them; nul
 drawn                    only of tasks that add some: the series of :class:`.DrawnSeries`, each
                          with ``name``, ``label``, ``where``, ``goal`` and ``values``, packed as
                          heights are
+hurdles                  only of lifts that have some: each with ``label``, ``where``, ``height``
+                         [0.1 mm], the frames ``start`` and ``stop`` of its window, the length
+                         ``stay`` and the first frame ``nearest`` of the stay that came nearest,
+                         and by how much that ``missed`` it [0.1 mm]; both null if there was none
 holder                   only without a NAO: ``person``, another robot by its name, or words on one
                          without a picture
 ghost                    ``human``, ``robot`` and ``drawn`` as above, and ``rmse_mm``, of two people
@@ -48,6 +52,7 @@ from colift.agents.agent import FRAME
 from colift.agents.humans import Plan, Played, goal_error_mm
 from colift.benchmark.bundle import one_line
 from colift.benchmark.episode.blame import blaming_plugins
+from colift.benchmark.episode.drawn import drawn_hurdles
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.metric import drawn_series
@@ -156,6 +161,7 @@ def replay_content(
         "events": [] if played else [[name, frame] for name, frame in ghost.plan.events],
         **({} if played is None else _goals(played, episode)),
         **_drawn(scenario, trace),
+        **_hurdles(scenario, trace),
         **_holder(scenario.partner),
         "ghost": {
             "human": changes(human_human.trace.human_end),
@@ -176,10 +182,30 @@ def _goals(played: Played, episode: Episode) -> dict[str, Any]:
 def _drawn(scenario: Scenario, trace: Trace) -> dict[str, Any]:
     """Return the series that the task adds and pictures show; empty if there are none."""
     shown = [
-        {**dataclasses.asdict(each), "values": changes(trace.added[each.name])}
+        {
+            "name": each.name,
+            "label": each.label,
+            "where": each.where,
+            "goal": each.goal,
+            "values": changes(trace.added[each.name]),
+        }
         for each in drawn_series(scenario.task.metrics)
+        if each.stay is None
     ]
     return {"drawn": shown} if shown else {}
+
+
+def _hurdles(scenario: Scenario, trace: Trace) -> dict[str, Any]:
+    """Return the hurdles of the lift; empty if there are none."""
+    found = [
+        {
+            **dataclasses.asdict(each),
+            "height": _units([each.height], UNIT)[0],
+            "missed": None if each.missed is None else _units([each.missed], UNIT)[0],
+        }
+        for each in drawn_hurdles(drawn_series(scenario.task.metrics), trace)
+    ]
+    return {"hurdles": found} if found else {}
 
 
 def _holder(partner: str) -> dict[str, str]:

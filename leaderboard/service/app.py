@@ -10,6 +10,7 @@ from typing import Final
 import anyio.to_thread
 from colift.leaderboard.client import API
 from colift.leaderboard.core.tokens import Tokens
+from colift.leaderboard.pages.links import STATIC
 from colift.leaderboard.practice.season_import import open_with_practice
 from colift.leaderboard.queue import Queue, Quota
 from colift.leaderboard.service import page_routes as pages
@@ -21,6 +22,7 @@ from colift.leaderboard.service.errors import FaultHandler, Problem, answer_erro
 from colift.leaderboard.service.ranker import Ranker
 from colift.leaderboard.service.security import Guard, RateLimit
 from colift.leaderboard.service.uploads import remove_orphans
+from colift.leaderboard.views.page import NAME
 from fastapi import APIRouter, FastAPI
 from fastapi.middleware.gzip import GZipMiddleware
 from fastapi.staticfiles import StaticFiles
@@ -36,6 +38,7 @@ def create_app(
     folder: Path,
     rates: Rates | None = None,
     *,
+    name: str = NAME,
     contact: str = "",
     address: str = "",
     quota: Quota | None = None,
@@ -50,6 +53,8 @@ def create_app(
         The board's; see :func:`.open_with_practice`.
     rates
         Rate limits of clients.
+    name
+        Name of the board on its pages.
     contact
         Contact of the maintainer, shown with the rules.
     address
@@ -104,6 +109,7 @@ def create_app(
         queue=Queue(board, quota or Quota()),
         tokens=Tokens(board),
         uploads=RateLimit(rate=rates.submitter),
+        name=name,
         contact=contact,
         address=address,
         docs=docs,
@@ -115,7 +121,7 @@ def create_app(
     app.add_middleware(Guard, rate=rates.address)
     app.include_router(api_router())
     app.include_router(pages.router)
-    app.mount("/static", StaticFiles(packages=[("colift.leaderboard", "static")]))
+    app.mount("/static", StaticFiles(packages=[*STATIC]))
     if docs is not None and docs.folder is not None:
         app.mount(PLACE, Pages(directory=docs.folder, html=True))
     app.get("/healthz", responses={429: {"model": Problem}})(health)

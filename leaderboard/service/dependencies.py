@@ -14,7 +14,7 @@ from colift.leaderboard.service.documentation import Documentation
 from colift.leaderboard.service.errors import Problem
 from colift.leaderboard.service.security import Rate, RateLimit
 from colift.leaderboard.service.slots import Slots
-from colift.leaderboard.views.page import PARTS
+from colift.leaderboard.views.page import NAME, PARTS
 from fastapi import Depends, Path, Query, Request
 
 PLAY: Final = "/play"
@@ -46,6 +46,8 @@ class ServiceState:
     tokens: Tokens
     uploads: RateLimit
     """Rate of uploads, by submitter."""
+    name: str = NAME
+    """Name of the board on its pages."""
     contact: str = ""
     """Contact of the maintainer."""
     address: str = ""

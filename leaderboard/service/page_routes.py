@@ -22,6 +22,7 @@ def _visit(request: Request) -> Visit:
     chosen = query.getlist("p")
     return Visit(
         board=service.board,
+        name=service.name,
         asked=Asked.read(p=chosen, **{name: query.get(name, "") for name in names}),
         chosen=chosen,
         origin=origin_of(request),
@@ -57,6 +58,8 @@ for each in PAGES.values():
 
 def missing_page(request: Request, message: str) -> HTMLResponse:
     """Return the page for an address of nothing."""
-    season = find_season(service_state(request).board)
-    page = render_page("missing.html", links_of(request), season=season, message=message)
+    service = service_state(request)
+    season = find_season(service.board)
+    content = {"season": season, "board_name": service.name, "message": message}
+    page = render_page("missing.html", links_of(request), **content)
     return HTMLResponse(page, 404)

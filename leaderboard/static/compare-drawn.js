@@ -14,6 +14,12 @@
     return element;
   }
 
+  // Each behaviour has a colour and a shape.
+  function marker(svg, behaviour, x, y, size) {
+    const transform = `translate(${x.toFixed(1)} ${y.toFixed(1)}) scale(${size})`;
+    return make(svg, "use", { class: "lift k" + behaviour % 5, href: "#s" + behaviour % 4, transform });
+  }
+
   function option(select, value, text) {
     const each = document.createElement("option");
     each.value = value;
@@ -45,11 +51,11 @@
     let better = 0;
     data.lifts.forEach(([behaviour, subject, seed], i) => {
       if (a.rmse[i] < b.rmse[i]) better += 1;
-      const dot = make(svg, "circle", { class: "lift k" + behaviours.indexOf(behaviour) % 5, cx: x(a.rmse[i]).toFixed(1), cy: y(b.rmse[i]).toFixed(1), r: 3 });
+      const dot = marker(svg, behaviours.indexOf(behaviour), x(a.rmse[i]), y(b.rmse[i]), 0.7);
       make(dot, "title", {}, `${words(behaviour)}, ${subject}, seed ${seed}: ${a.rmse[i].toFixed(1)} and ${b.rmse[i].toFixed(1)} mm`);
     });
     behaviours.forEach((behaviour, i) => {
-      make(svg, "circle", { class: "lift k" + i % 5, cx: left + 14, cy: top + 14 + 17 * i, r: 4 });
+      marker(svg, i, left + 14, top + 14 + 17 * i, 0.9);
       make(svg, "text", { x: left + 24, y: top + 18 + 17 * i }, words(behaviour));
     });
     svg.setAttribute("aria-label", `RMSE of ${data.lifts.length} lifts: ${a.name} is ${svg.dataset.better} than ${b.name} in ${better}.`);

@@ -19,6 +19,16 @@
   document.getElementById("few").hidden = enough;
   comparison.hidden = !enough;
   for (const row of comparison.querySelectorAll("[data-p]"))
-    row.hidden = !row.dataset.p.split(" ").every((digest) => chosen.includes(digest));
+    row.toggleAttribute("hidden", !row.dataset.p.split(" ").every((digest) => chosen.includes(digest)));
+  // Each chosen policy gets its place in the picture, and the colour and the shape of that place.
+  const apart = Number(comparison.querySelector(".dots").dataset.apart);
+  chosen.forEach((digest, k) => {
+    for (const drawn of comparison.querySelectorAll(`.series[data-p="${digest}"], [data-p="${digest}"] > .marker`)) {
+      drawn.classList.remove("s0", "s1", "s2", "s3");
+      drawn.classList.add("s" + k);
+      for (const use of drawn.querySelectorAll("use")) use.setAttribute("href", "#s" + k);
+      if (drawn.matches(".series")) drawn.setAttribute("transform", `translate(0 ${apart * (k - (chosen.length - 1) / 2)})`);
+    }
+  });
   if (enough) window.coliftDraw(chosen);
 })();

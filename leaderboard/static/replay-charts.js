@@ -22,10 +22,10 @@
       series("robot", "line", times, mm(now.robot), true),
     ];
     const keys = [
-      ["human", "human's end"],
-      ["robot", "robot's end"],
-      ["target", now.goals ? "goal" : "human's intention"],
-      ["human-human", now.ghost.team ? "two simulated people, same goals" : "a second human in the robot's place"],
+      ["human", "human's end", "human"],
+      ["robot", "robot's end", "robot"],
+      ["target", now.goals ? "goal" : "human's intention", now.goals ? "goal" : "intention"],
+      ["human-human", now.ghost.team ? "two simulated people, same goals" : "two people", "two people"],
     ];
     const added = now.drawn.filter((each) => each.where !== "place");
     for (const each of added) {
@@ -34,10 +34,20 @@
     }
     if (now.prediction) {
       lines.push(series("prediction", "dots", steps, mm(now.prediction)));
-      keys.push(["prediction", "prediction of the human, drawn when it was made"]);
+      keys.push(["prediction", "prediction of the human, drawn when it was made", "prediction"]);
     }
     // An outlying prediction must not flatten the curves of the lift.
-    const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot), ...added.map((each) => mm(each.values)));
+    const hurdles = now.hurdles.map((each) => ({
+      where: each.where,
+      height: 1000 * each.height,
+      base: 1000 * now.target[each.start],
+      start: each.start * now.frame_s,
+      stop: each.stop * now.frame_s,
+      stay: each.nearest === null ? null : [each.nearest, each.nearest + each.stay].map((frame) => frame * now.frame_s),
+      words: colift.hurdleWords(each),
+    }));
+    const bars = hurdles.map((each) => each.height);
+    const [least, most] = span(mm(now.human), mm(now.robot), mm(now.target), mm(now.ghost.robot), bars, ...added.map((each) => mm(each.values)));
     const room = most - least;
     const within = (value) => value !== null && value > least - 0.15 * room && value < most + 0.15 * room;
     if (now.prediction) {
@@ -58,13 +68,15 @@
         high: most + 0.22 * room,
         height: 250,
         series: lines,
+        hurdles,
         events,
       },
       {
         name: "error",
         title: `${now.error.scored ? "Error" : "Height difference"}: ${now.error.words} [mm]`,
+        brief: `${now.error.scored ? "Error" : "Difference"} [mm]`,
         summary: `${now.drawn.length ? "Error" : "Height difference"}, RMSE ${colift.number(now.scores.rmse_mm, 1)} mm`,
-        keys: [["robot", "with the robot"], ["human-human", now.ghost.team ? "two simulated people" : "with a second human"]],
+        keys: [["robot", "with the robot", "robot"], ["human-human", now.ghost.team ? "two simulated people" : "two people", "two people"]],
         low: -reach,
         high: reach,
         height: 150,
@@ -79,6 +91,7 @@
       charts.push({
         name: "place",
         title: "Place on the table, from its middle towards the robot [mm]",
+        brief: "Place [mm]",
         summary: `Places on the table: ${places.map((each) => each.label).join(", ")}`,
         keys: places.map((each) => [placed(each), each.label]),
         low: -reach,

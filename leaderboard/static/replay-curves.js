@@ -3,7 +3,9 @@
 (function () {
   const MARGIN = { left: 54, right: 22, top: 10, bottom: 8, axis: 30 };
 
-  const { make } = window.coliftReplay;
+  const ROW = 14; // height of a row of words, in pixels
+
+  const { make, element } = window.coliftReplay;
 
   // Round steps of an axis: about `count` of them.
   function ticks(low, high, count) {
@@ -16,19 +18,16 @@
   }
 
   class Chart {
-    // options: title, keys [[kind, words]], low, high, height, series, labels, last
+    // options: title, keys [[kind, words, short words]], low, high, height, series, hurdles, labels, last
     // series: {kind, style: "line" | "dots" | "area", times, values}; a null value is a gap.
     constructor(host, options, player) {
       this.options = options;
       this.player = player;
       const figure = document.createElement("figure");
       figure.className = "replay-chart";
-      const caption = document.createElement("figcaption");
-      const title = document.createElement("b");
-      title.textContent = options.title;
-      caption.appendChild(title);
-      for (const [kind, words] of options.keys) caption.appendChild(key(kind, words));
-      figure.appendChild(caption);
+      this.caption = element("figcaption", {}, element("b", {}, ...wording(options.title, options.brief)));
+      for (const each of options.keys) this.caption.appendChild(key(...each));
+      figure.appendChild(this.caption);
       this.svg = make("svg", { role: "img", "aria-label": options.summary });
       figure.appendChild(this.svg);
       host.appendChild(figure);
@@ -71,6 +70,7 @@
       const width = Math.round(this.svg.parentNode.clientWidth);
       if (!width || width === this.width) return;
       this.width = width;
+      this.shorten();
       const { height, last } = this.options;
       const whole = height + (last ? MARGIN.axis : 0);
       this.bottom = height - MARGIN.bottom;
@@ -82,6 +82,7 @@
       this.past = make("rect", { x: 0, y: 0, width: 0, height: whole }, make("clipPath", { id: clip }, this.svg));
       this.curves(make("g", { class: "future" }, this.svg));
       this.curves(make("g", { "clip-path": `url(#${clip})` }, this.svg));
+      this.words();
       this.cursor = make("line", { class: "cursor", y1: MARGIN.top - 4, y2: this.bottom }, this.svg);
       this.dots = this.options.series
         .filter((series) => series.dot)
@@ -106,18 +107,53 @@
           text.textContent = second ? `${+second.toFixed(1)} s` : "0";
         }
       }
-      let free = 0;
-      for (const [words, start] of events || []) {
+      this.phases(grid, events || [], right);
+    }
+
+    // The names of phases, in two rows: one without room has a line only, which begins below both.
+    phases(grid, events, right) {
+      const free = [0, 0];
+      for (const [words, start] of events) {
         const x = this.x(start);
-        if (start) make("line", { x1: x, x2: x, y1: MARGIN.top, y2: this.bottom, class: "event" }, grid);
-        if (x < free) continue;
-        const text = make("text", { x: x + 4, y: MARGIN.top + 9, class: "event" }, grid);
+        const text = make("text", { x: x + 4, class: "event" }, grid);
         text.textContent = words;
-        free = x + 12 + 6.2 * words.length;
+        const end = x + 12 + text.getComputedTextLength();
+        // The line of a name in the upper row runs through the lower one.
+        const row = end - 8 > right ? 2 : x >= Math.max(...free) ? 0 : x >= free[1] ? 1 : 2;
+        if (row < 2) free[row] = end;
+        else text.remove();
+        text.setAttribute("y", MARGIN.top + 9 + row * ROW);
+        const top = MARGIN.top + row * ROW;
+        if (start) make("line", { x1: x, x2: x, y1: top, y2: this.bottom, class: "event" }, grid);
+      }
+    }
+
+    // A caption that does not fit into a line has shorter words.
+    shorten() {
+      const { classList, firstElementChild, lastElementChild } = this.caption;
+      classList.remove("short");
+      classList.toggle("short", lastElementChild.offsetTop > firstElementChild.offsetTop + ROW);
+    }
+
+    // By how much each hurdle is missed: beside its bar, away from another one that is open meanwhile.
+    words() {
+      const hurdles = this.options.hurdles || [];
+      for (const each of hurdles) {
+        const others = hurdles.filter((other) => other !== each && other.start < each.stop && each.start < other.stop);
+        const above = each.height > Math.max(each.base, ...others.map((other) => other.height));
+        const x = (this.x(each.start) + this.x(each.stop)) / 2;
+        const text = make("text", { x, y: this.y(each.height) + (above ? -8 : 17), "text-anchor": "middle", class: `words ${each.where}` }, this.svg);
+        text.textContent = each.words;
       }
     }
 
     curves(group) {
+      for (const { where, height, start, stop, stay } of this.options.hurdles || []) {
+        for (const [kind, from, to] of [["window", start, stop], ...(stay ? [["stay", ...stay]] : [])]) {
+          const box = { x: this.x(from), y: this.y(height) - 3, width: this.x(to) - this.x(from), height: 6 };
+          make("rect", { ...box, class: `hurdle ${where} ${kind}` }, group);
+        }
+      }
       for (const { kind, style, times, values } of this.options.series) {
         if (style === "dots") {
           values.forEach((value, i) => {
@@ -155,17 +191,21 @@
   }
 
   // The key of a line of a chart.
-  function key(kind, words) {
-    const item = document.createElement("span");
-    item.className = "replay-key key-" + kind;
+  function key(kind, words, brief) {
+    const item = element("span", { class: "replay-key key-" + kind });
     const sample = make("svg", { viewBox: "0 0 22 10", width: 22, height: 10, "aria-hidden": "true" }, item);
     if (kind === "prediction") {
       for (const cx of [4, 11, 18]) make("circle", { cx, cy: 5, r: 2, class: "point " + kind }, sample);
     } else {
       make("path", { d: "M1 5H21", class: "curve " + kind }, sample);
     }
-    item.append(words);
+    item.append(...wording(words, brief));
     return item;
+  }
+
+  // Words, and shorter ones, if there are any, for a line in which they do not fit.
+  function wording(words, brief) {
+    return brief && brief !== words ? [element("span", { class: "long" }, words), element("span", { class: "brief" }, brief)] : [words];
   }
 
   window.coliftReplay.Chart = Chart;

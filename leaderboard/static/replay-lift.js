@@ -14,6 +14,7 @@
   colift.decoded = function (replay) {
     const scaled = (values, unit) => values && values.map((v) => (v === null ? null : v * unit));
     const series = (drawn) => (drawn || []).map((each) => ({ ...each, values: heights(each.values) }));
+    const metres = (value) => (value === null ? null : value * UNIT);
     const now = {
       ...replay,
       human: heights(replay.human),
@@ -24,6 +25,7 @@
       confidence: scaled(replay.confidence, 1e-3),
       role: scaled(replay.role, 1e-3),
       drawn: series(replay.drawn),
+      hurdles: (replay.hurdles || []).map((each) => ({ ...each, height: metres(each.height), missed: metres(each.missed) })),
       ghost: {
         ...replay.ghost,
         human: heights(replay.ghost.human),
@@ -57,7 +59,7 @@
     const words =
       ball && target ? `${ball.label} from the ${target.label}, towards the robot` : `robot's end above ${goal ? "the " + goal.label : "the human's"}`;
     // If several quantities count, the height difference is not the error.
-    const scored = Boolean(goal || (ball && target)) || !now.drawn.length;
+    const scored = Boolean(goal || (ball && target)) || !(now.drawn.length || now.hurdles.length);
     return { values: missed(now), ghost: missed(now.ghost), words, scored };
   }
 
@@ -73,6 +75,7 @@
     // A goal appears at once, and is not there before.
     const stepped = (values) => values[Math.min(Math.floor(place), values.length - 1)];
     const step = Math.floor(time / now.period_s + 1e-9);
+    const until = (frame) => frame * now.frame_s - time;
     const reported = (values) => (values && values.length ? values[Math.min(step, values.length - 1)] : null);
     return {
       human: at(now.human),
@@ -86,9 +89,22 @@
       command: reported(now.command),
       drawn: now.drawn.map((each) => ({ ...each, value: at(each.values) })),
       ghostDrawn: now.ghost.drawn.map((each) => ({ ...each, value: at(each.values) })),
+      hurdles: now.hurdles.map((each) => ({ ...each, opens: until(each.start), closes: until(each.stop) })),
       error: at(now.error.values),
       ghostError: at(now.error.ghost),
       over: now.human.length < now.horizon && time > now.human.length * now.frame_s,
     };
+  };
+
+  // Calls `step` with the time since the last call [s], whenever the browser draws, until it
+  // returns false.
+  colift.eachFrame = function (step) {
+    let before = null;
+    const frame = (stamp) => {
+      if (!step(before === null ? 0 : (stamp - before) / 1000)) return;
+      before = stamp;
+      window.requestAnimationFrame(frame);
+    };
+    window.requestAnimationFrame(frame);
   };
 })();

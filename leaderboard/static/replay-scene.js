@@ -1,5 +1,5 @@
 "use strict";
-// The lift from the side: robot, table, person, and the human-human baseline as a ghost.
+// The lift from the side: robot, table, person, and the second of two people as a ghost.
 // Lengths are in m; x goes from the robot to the human, z upwards (see replays/geometry.py).
 (function () {
   const VIEW = { left: -0.66, right: 1.72, top: 0.93, bottom: -0.95 };
@@ -106,9 +106,10 @@
       this.intended = make("line", { class: "intended-pose none" }, svg);
       this.meant = make("path", { d: "M0 0h-.13", class: "intention none" }, svg);
       this.marks = {
-        human: make("path", { d: "M0 0h.13", class: "hurdle human none" }, svg),
-        robot: make("path", { d: "M0 0h-.13", class: "hurdle robot none" }, svg),
+        human: make("path", { d: "M0 0h.13", class: "mark human none" }, svg),
+        robot: make("path", { d: "M0 0h-.13", class: "mark robot none" }, svg),
       };
+      this.hurdles = make("g", {}, svg);
       this.aim = make("path", { d: "M-.03-.11h.06l-.03.05z", class: "aim none" }, this.table.group);
       const ball = (group) => make("circle", { r: 0.03, cy: -0.041, class: "ball none" }, group);
       this.ghostBall = ball(this.ghostTable.group);
@@ -175,6 +176,19 @@
       this.unknown.textContent = words;
     }
 
+    // Hurdles, as bars beside the table: bold while they are open.
+    bars(hurdles) {
+      const ends = { x1: this.robotX + 0.05, x2: this.humanX - 0.05 };
+      while (this.hurdles.children.length > hurdles.length) this.hurdles.lastChild.remove();
+      hurdles.forEach(({ where, height, opens, closes }, i) => {
+        const bar = this.hurdles.children[i] || make("line", ends, this.hurdles);
+        const y = -(this.rest + height);
+        bar.setAttribute("y1", y);
+        bar.setAttribute("y2", y);
+        bar.setAttribute("class", `hurdle ${where} ${opens <= 0 && closes > 0 ? "open" : "closed"}`);
+      });
+    }
+
     showGhost(shown) {
       this.svg.classList.toggle("no-ghost", !shown);
     }
@@ -215,6 +229,7 @@
         this.marks[end].classList.toggle("none", !mark);
         if (mark) put(this.marks[end], x, mark.value);
       }
+      this.bars(now.hurdles || []);
       this.prediction.classList.toggle("none", now.prediction === null);
       if (now.prediction !== null) put(this.prediction, this.humanX - 0.07, now.prediction);
     }

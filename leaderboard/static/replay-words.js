@@ -25,6 +25,7 @@
     ball_smooth_shared: "lifts smoothly, and knows, like the robot, where the ball should be",
     ball_pause_shared: "stops on the way, and knows, like the robot, where the ball should be",
     recorded: "repeats a recorded lift",
+    as_recorded: "repeats a recorded lift at its own size and pace",
     cued: "follows cues",
     played: "lifted live",
   };
@@ -65,6 +66,16 @@
     const whole = Math.round(Math.abs(millimetres));
     if (!whole) return none;
     return `robot ${whole} mm too ${millimetres < 0 ? "low" : "high"}`;
+  };
+
+  colift.hurdleWords = ({ label, missed }) =>
+    missed === null ? `${label} not reached` : `${label} missed by ${Math.round(1000 * missed)} mm`;
+
+  // When a hurdle opens; its height while it is open; then by how much it was missed.
+  colift.hurdleState = function ({ height, missed, opens, closes }) {
+    if (opens > 0) return `in ${opens.toFixed(1)} s`;
+    if (closes > 0) return `${Math.round(1000 * height)} mm`;
+    return missed === null ? "missed" : `off ${Math.round(1000 * missed)} mm`;
   };
 
   colift.element = function (name, attributes, ...children) {

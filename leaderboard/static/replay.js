@@ -2,7 +2,7 @@
 // The replay player: it fills every element with data-replay="ID", where ID is that of a JSON script
 // {"geometry": ..., "replays": [...]} (see replays/geometry.py and replays/replay.py).
 // Keys: space plays and pauses, arrows move by a step (with shift by a second), Home and End,
-// comma and full stop move by a frame, G shows or hides the human-human baseline.
+// comma and full stop move by a frame, G shows or hides the second of two people.
 (function () {
   const SPEEDS = [0.25, 0.5, 1, 2, 4];
 
@@ -52,15 +52,19 @@
       for (const each of behaviours) select.append(element("option", { value: each }, words(each)));
       this.whichButtons = element("div", { class: "replay-which", role: "group", "aria-label": "Which lift" });
       this.behaviour = select;
-      select.addEventListener("change", () => this.pick(select.value, this.now.which));
+      select.addEventListener("change", () => this.pick(this.alike(select.value)));
       this.root.append(
         element("div", { class: "replay-picker" }, element("label", {}, "The human: ", select), this.whichButtons)
       );
     }
 
-    pick(behaviour, which) {
-      const of = this.replays.map((r, i) => [r, i]).filter(([r]) => r.behaviour === behaviour);
-      const [, index] = of.find(([r]) => r.which === which) || of[0];
+    // The replay of a behaviour that was chosen for the same reason as the present one, or its first.
+    alike(behaviour) {
+      const of = this.replays.filter((r) => r.behaviour === behaviour);
+      return this.replays.indexOf(of.find((r) => r.which === this.now.which) || of[0]);
+    }
+
+    pick(index) {
       this.choose(index);
       try {
         window.history.replaceState(null, "", "#" + this.name(this.replays[index]));
@@ -75,9 +79,10 @@
       const of = this.replays.filter((r) => r.behaviour === this.now.behaviour);
       this.whichButtons.replaceChildren(
         ...of.map((r) => {
-          const button = element("button", { type: "button", "aria-pressed": r.which === this.now.which });
+          const index = this.replays.indexOf(r);
+          const button = element("button", { type: "button", "aria-pressed": index === this.index });
           button.append(colift.WHICH[r.which] || r.subject, " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
-          button.addEventListener("click", () => this.pick(r.behaviour, r.which));
+          button.addEventListener("click", () => this.pick(index));
           return button;
         })
       );
@@ -106,6 +111,7 @@
     }
 
     choose(index) {
+      this.index = index;
       const now = (this.now = decoded(this.replays[index]));
       this.frames = now.human.length;
       this.duration = Math.max(now.horizon, 1) * now.frame_s;
@@ -192,6 +198,7 @@
         ["error", goal ? "error" : "difference", over ? "counts as 250 mm" : `${number(difference, 1)} mm`],
         ["human-human", "two people", `${number(ghostGap, 1)} mm`],
         ...state.drawn.map((each) => ["target", each.label, `${number(1000 * each.value, 0)} mm`]),
+        ...state.hurdles.map((each) => [each.where, each.label, colift.hurdleState(each)]),
         ["target", now.goals ? "goal" : "human's intention", state.target === null ? "none yet" : `${number(1000 * state.target, 0)} mm`],
         ["command", "robot's command", state.command === null ? "none" : `${number(1000 * state.command, 0)} mm`],
       ];
@@ -244,18 +251,15 @@
     play() {
       if (this.time >= this.duration - 1e-6) this.time = 0;
       this.playing = true;
-      let before = null;
-      const tick = (stamp) => {
-        if (!this.playing) return;
-        if (before !== null && !this.held) {
-          this.time = Math.min(this.time + (this.speed * (stamp - before)) / 1000, this.duration);
+      colift.eachFrame((seconds) => {
+        if (!this.playing) return false;
+        if (!this.held) {
+          this.time = Math.min(this.time + this.speed * seconds, this.duration);
           if (this.time >= this.duration) this.playing = false;
           this.show();
         }
-        before = stamp;
-        window.requestAnimationFrame(tick);
-      };
-      window.requestAnimationFrame(tick);
+        return true;
+      });
       this.show();
     }
 

@@ -73,7 +73,7 @@ class SeasonSecrets:
         return secret
 
     def human_human(self, play: Callable[[], ScoreTable]) -> ScoreTable:
-        """Return the human-human baseline on the hidden episodes; it is run only once."""
+        """Return the results of two people on the hidden episodes; they are played only once."""
         known = self.known_human_human()
         if known is None:
             known = play()
@@ -89,11 +89,11 @@ class SeasonSecrets:
             If its file is damaged.
         """
         path = self.folder / "human_human.json"
-        with _undamaged(path, "the next evaluation plays the human-human baseline again"):
+        with _undamaged(path, "the next evaluation plays two people again"):
             return ScoreTable.read(read_json(path)) if path.exists() else None
 
     def keep_human_human(self, human_human: ScoreTable) -> None:
-        """Write the human-human baseline."""
+        """Write the results of two people."""
         self.folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
         write_json(self.folder / "human_human.json", human_human.plain(), mode=PRIVATE_FILE)
 

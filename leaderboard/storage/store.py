@@ -7,7 +7,7 @@
     public/SEASON/entries/DIGEST/bundle/     the bundle of the public run
     public/SEASON/entries/DIGEST/bundle.zip  the same in one file, made at the first request
     logs/JOB.txt                             the workers' log of a job
-    private/SEASON/                          the secret, the human-human baseline, faults in detail
+    private/SEASON/                          the secret, results of two people, faults in detail
     private/work/                            evaluations in progress
     private/ranking                          held while ranks are computed
 

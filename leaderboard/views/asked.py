@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, Self
 
-from colift.leaderboard.views.lifts import Part
+from colift.benchmark.results.parts import Part
 
 ROWS: Final = 100
 """Maximum number of rows of a page."""

@@ -8,6 +8,8 @@ from typing import Final
 from colift.agents.humans import Subject
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.rendering.axis import make_axis
+from colift.benchmark.results.parts import Part
 from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
@@ -22,8 +24,7 @@ from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.records.season import SeasonInfo
 from colift.leaderboard.views.asked import ROWS
-from colift.leaderboard.views.axis import make_axis
-from colift.leaderboard.views.lifts import Part, known, part_estimate, stratum_scores
+from colift.leaderboard.views.lifts import known, part_estimate, stratum_scores
 from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
 from colift.leaderboard.views.suites import season_suite
 

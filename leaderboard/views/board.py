@@ -6,6 +6,8 @@ from typing import Any, Final
 from weakref import WeakKeyDictionary
 
 from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.rendering.axis import Axis, make_axis
+from colift.benchmark.results.parts import Part, parts_of
 from colift.benchmark.results.strata import (
     StratumScore,
     human_human_mean,
@@ -18,8 +20,8 @@ from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics
 from colift.leaderboard.views.asked import ROWS, Asked
-from colift.leaderboard.views.axis import Axis, make_axis
-from colift.leaderboard.views.lifts import Part, known, parts_of
+from colift.leaderboard.views.glance import glance
+from colift.leaderboard.views.lifts import known
 from colift.leaderboard.views.lines import RankedLine, lines_of, strata_of
 from colift.leaderboard.views.page import (
     Content,
@@ -52,7 +54,8 @@ def board_page(
     computed. ``slow`` rows are not real-time and ranked among themselves, ``out`` are unverified,
     withdrawn or removed. ``people`` is the human-human baseline on the lifts of the lines,
     ``human_human`` that on the hidden ones, ``human_human_mm`` that on the public lifts of each
-    behaviour; ``events`` are those of the season and its rows, newest first.
+    behaviour; ``events`` are those of the season and its rows, newest first. ``glance`` is for a
+    lift that needs more than a board, see :func:`.glance`.
 
     Parameters
     ----------
@@ -125,6 +128,7 @@ def board_page(
         "most_pictured": PICTURED,
         "pictured": sum(dot.point.kind == "policy" for dot in wide.dots) if wide else 0,
         "data": _drawn(info.suite, axis, lines.rows, strata, known_references),
+        "glance": None,
     }
 
 
@@ -223,7 +227,12 @@ def _rounded(mean: float | None) -> float | None:
 
 def _shown(visit: Visit, season: str | None = None) -> Content:
     content = board_page(visit.board, season, visit.asked)
-    return {**content, "page": "front" if content["season"].current else "season"}
+    info = content["season"]
+    return {
+        **content,
+        "page": "front" if info.current else "season",
+        "glance": None if visit.asked.first else glance(visit, info.name),
+    }
 
 
 def _further(visit: Visit, season: str, number: str) -> Content:

@@ -10,15 +10,15 @@ from pathlib import Path
 from typing import Any, Final
 
 from colift.agents.agent import FRAME
+from colift.benchmark.rendering.axis import make_axis
+from colift.benchmark.results.parts import parts_of
 from colift.benchmark.results.strata import human_human_mean, vs_human_mean
 from colift.benchmark.statistics import Estimate, PairedDifference, permutation_ps_against
 from colift.leaderboard.core.standings import RankedRow
 from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.views.asked import CHOSEN, ROWS
-from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.lifts import (
     part_estimate,
-    parts_of,
     public_lifts,
     public_scores,
     stratum_scores,

@@ -5,29 +5,18 @@ A bundle is read only once: it never changes, unless a rescore replaces it by an
 
 import csv
 import functools
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
+from colift.benchmark.bundle.table import HUMAN_HUMAN_RMSE
 from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.lifts import ScoredLift
+from colift.benchmark.results.parts import Part
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.strata import StratumScore, mean_of_strata
 from colift.benchmark.statistics import Estimate
 from colift.leaderboard.records.metrics import read_means
 from colift.leaderboard.storage.files import read_json
-
-
-@dataclass(frozen=True, kw_only=True)
-class PublicLift:
-    """One public lift."""
-
-    behaviour: str
-    subject: str
-    seed: int
-    rmse_mm: float
-    failure: str | None
-    """Reason of a failure, in the policy's own words if the policy failed."""
 
 
 def version(bundle: Path) -> tuple[int, int]:
@@ -50,22 +39,23 @@ def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...
     )
 
 
-def public_lifts(bundle: Path) -> tuple[PublicLift, ...]:
+def public_lifts(bundle: Path) -> tuple[ScoredLift, ...]:
     """Return the lifts of a bundle, in the suite's order; none if it has only results."""
     return _public_lifts(bundle, version(bundle))
 
 
 @functools.lru_cache(maxsize=64)
-def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[PublicLift, ...]:
+def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[ScoredLift, ...]:
     if not (bundle / EPISODES).is_file():
         return ()
     with (bundle / EPISODES).open(newline="", encoding="utf-8") as file:
         return tuple(
-            PublicLift(
+            ScoredLift(
                 behaviour=row["behaviour"],
                 subject=row["subject"],
                 seed=int(row["seed"]),
                 rmse_mm=float(row["rmse_mm"]),
+                human_human_mm=float(row[HUMAN_HUMAN_RMSE]) if HUMAN_HUMAN_RMSE in row else None,
                 failure=row["failure"] or None,
             )
             for row in csv.DictReader(file)
@@ -84,29 +74,6 @@ def public_scores(bundle: Path) -> ScoreTable:
 def is_whole(bundle: Path | None) -> bool:
     """Return whether a bundle can be verified; those of practice rows are incomplete."""
     return bundle is not None and all((bundle / name).is_file() for name in FILES)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Part:
-    """The public lifts of a behaviour, or all of them."""
-
-    behaviour: str | None
-    """None: all of them."""
-
-    def of(self, strata: Iterable[StratumScore]) -> list[StratumScore]:
-        """Return the strata that belong to it."""
-        return [each for each in strata if self.behaviour in (None, each.behaviour)]
-
-    @property
-    def whole(self) -> bool:
-        """Whether it is all lifts."""
-        return self.behaviour is None
-
-
-def parts_of(strata: Sequence[StratumScore]) -> tuple[Part, ...]:
-    """Return all lifts, then each behaviour."""
-    behaviours = dict.fromkeys(stratum.behaviour for stratum in strata)
-    return tuple(Part(behaviour=each) for each in (None, *behaviours))
 
 
 def part_estimate(bundle: Path, part: Part) -> Estimate:

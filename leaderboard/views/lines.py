@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from colift.benchmark.results.parts import Part
 from colift.benchmark.results.strata import StratumScore, mean_of_strata, vs_human_mean
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
@@ -13,7 +14,7 @@ from colift.leaderboard.core.tables import Table
 from colift.leaderboard.records.metrics import board_metrics, sort_key
 from colift.leaderboard.records.row import BoardRow
 from colift.leaderboard.views.asked import ROWS, Asked
-from colift.leaderboard.views.lifts import Part, known, stratum_scores
+from colift.leaderboard.views.lifts import known, stratum_scores
 
 
 @dataclass(frozen=True, kw_only=True)

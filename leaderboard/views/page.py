@@ -22,6 +22,9 @@ PARTS: Final[Mapping[str, str]] = {
 }
 """The parts that an address can have in braces, with the pattern of their values."""
 
+NAME: Final = "colift"
+"""Name of a board without another one."""
+
 Content = Mapping[str, Any] | str | bytes
 """What a view returns: the values for its template by name, or the page itself.
 
@@ -39,6 +42,8 @@ class Visit:
     """What a page is made for: a request to a service, or a file of a site."""
 
     board: Board
+    name: str = NAME
+    """Name of the board on its pages."""
     asked: Asked = field(default_factory=Asked)
     """The question to a table."""
     chosen: Sequence[str] | None = None

@@ -77,7 +77,7 @@ def make_picture(
         The policies, best first: RMSE on the hidden lifts, as in the table, and the second
         metric on the public ones.
     human_human
-        The human-human baseline on the hidden lifts.
+        Two people on the hidden lifts.
     references
         Those of the season, on the hidden lifts.
     size

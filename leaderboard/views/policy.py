@@ -1,56 +1,23 @@
 """The page of a policy: description, scores part by part, and history."""
 
+import functools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
-from colift.benchmark.results.strata import (
-    Spread,
-    human_human_mean,
-    mean_of_strata,
-    spread_over_people,
-    vs_human_mean,
-)
-from colift.benchmark.statistics import Estimate
+from colift.benchmark.rendering.axis import make_axis
+from colift.benchmark.results.lifts import failures_by_reason, worst_of_behaviours
+from colift.benchmark.results.parts import part_scores
 from colift.leaderboard.client import API
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import RANKED, RankedRow
 from colift.leaderboard.database.schema import entries
-from colift.leaderboard.views.axis import make_axis
-from colift.leaderboard.views.lifts import (
-    Part,
-    PublicLift,
-    is_whole,
-    part_estimate,
-    parts_of,
-    public_lifts,
-    stratum_scores,
-)
+from colift.leaderboard.views.lifts import is_whole, part_estimate, public_lifts, stratum_scores
 from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
 from colift.leaderboard.views.replays import watchable
 
 BLEND: Final = "blend"
 """The paper's method, with which every policy is compared."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PartScore:
-    """The scores of a policy on a part of the public lifts, beside those of others."""
-
-    part: Part
-    episodes: int
-    failed: int
-    rmse_mm: Estimate
-    human_human_mm: float | None
-    """The human-human baseline's mean RMSE [mm]."""
-    ratio: float | None
-    """The RMSE over that of two people; see :func:`.vs_human_mean`."""
-    blend_mm: float | None
-    """The mean RMSE of ``blend`` [mm], if it is on the board."""
-    spread: Spread | None
-    """How the RMSE differs from person to person; None without lifts."""
 
 
 def policy_page(visit: Visit, season: str, digest: str) -> Content:
@@ -78,10 +45,16 @@ def policy_page(visit: Visit, season: str, digest: str) -> Content:
     )
     other = board.bundle(season, others[0]) if others and others[0] != digest else None
     fellows = ranks.fellows(digest) if mine.section in RANKED else ()
-    parts = () if bundle is None else _parts(bundle, other)
-    marks = [
-        mark for each in parts for mark in (each.human_human_mm, each.blend_mm) if mark is not None
-    ]
+    lifts = () if bundle is None else public_lifts(bundle)
+    parts = (
+        ()
+        if bundle is None
+        else part_scores(
+            stratum_scores(bundle),
+            functools.partial(part_estimate, bundle),
+            () if other is None else stratum_scores(other),
+        )
+    )
     better, worse = _neighbours(board, season, fellows if mine.ranked else (), digest)
     public = mine.row.public
     return {
@@ -90,11 +63,12 @@ def policy_page(visit: Visit, season: str, digest: str) -> Content:
         "shared": ranks.shared(digest),
         "ranked": len(fellows),
         "parts": parts,
-        "has_blend": any(each.blend_mm is not None for each in parts),
-        "axis": make_axis([each.rmse_mm for each in parts], marks),
+        "axis": make_axis(
+            [each.rmse_mm for each in parts], [mark for each in parts for mark in each.marks]
+        ),
         "never_lifted": public.failed == public.episodes,
-        "failures": _failures(bundle),
-        "worst": _worst(bundle),
+        "failures": failures_by_reason(lifts),
+        "worst": worst_of_behaviours(lifts),
         "better": better,
         "worse": worse,
         "history": tuple(reversed(board.entries_of(mine.row.name))),
@@ -117,47 +91,6 @@ def _neighbours(
     rows = [None if each is None else board.tables.row(season, each) for each in around]
     before, after = (each if each is not None and each.ranked else None for each in rows)
     return before, after
-
-
-def _failures(bundle: Path | None) -> list[tuple[str, list[PublicLift]]]:
-    """Return the public lifts that failed, by the reason."""
-    found: dict[str, list[PublicLift]] = {}
-    for lift in () if bundle is None else public_lifts(bundle):
-        if lift.failure is not None:
-            found.setdefault(lift.failure, []).append(lift)
-    return sorted(found.items(), key=lambda each: -len(each[1]))
-
-
-def _worst(bundle: Path | None) -> tuple[PublicLift, ...]:
-    """Return the worst lift of each behaviour; of equal ones the last, as in :func:`.choose`."""
-    worst: dict[str, PublicLift] = {}
-    for lift in () if bundle is None else public_lifts(bundle):
-        known = worst.get(lift.behaviour)
-        if known is None or lift.rmse_mm >= known.rmse_mm:
-            worst[lift.behaviour] = lift
-    return tuple(worst.values())
-
-
-def _parts(bundle: Path, other: Path | None) -> tuple[PartScore, ...]:
-    """Return the parts of a bundle's lifts, beside another policy's."""
-    strata = stratum_scores(bundle)
-    others = () if other is None else stratum_scores(other)
-    found = []
-    for part in parts_of(strata):
-        some = part.of(strata)
-        found.append(
-            PartScore(
-                part=part,
-                episodes=sum(stratum.episodes for stratum in some),
-                failed=sum(stratum.failed for stratum in some),
-                rmse_mm=part_estimate(bundle, part),
-                human_human_mm=human_human_mean(some),
-                ratio=vs_human_mean(some),
-                blend_mm=mean_of_strata(part.of(others)).mean,
-                spread=spread_over_people(some) if some else None,
-            )
-        )
-    return tuple(found)
 
 
 def _badge(visit: Visit, season: str, digest: str) -> Content:

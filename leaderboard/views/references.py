@@ -39,7 +39,7 @@ class SeasonReference:
     hidden: UnrankedScores
     """Its scores on the hidden lifts."""
     public: tuple[ScoreTable, ScoreTable] | None
-    """Its errors and those of the human-human baseline on the public lifts, for parts of them."""
+    """Its errors and those of two people on the public lifts, for parts of them."""
 
     @property
     def name(self) -> str:

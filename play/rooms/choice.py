@@ -13,7 +13,7 @@ from colift.benchmark.robots.robot import DEFAULT_ROBOT
 from colift.play.rooms.scenarios import MIXTURES
 
 SIMULATED: Final = "simulated person"
-"""The simulated second person of the human-human baseline."""
+"""The simulated second of two people."""
 
 PERSON: Final = "person"
 """A second real person, with simulated arms at the far end."""

@@ -10,6 +10,7 @@ from typing import Any, Final
 from colift.agents.spec import AgentSpec
 from colift.benchmark.real_lifts.session_folder import SessionFolder
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
+from colift.leaderboard.views.page import NAME
 from colift.play.rooms.process import RoomProcess, start_room
 from colift.play.rooms.room import RoomConfig
 from colift.play.web.group import Group
@@ -41,6 +42,8 @@ class PlayConfig:
     """Folder of the sessions, each of which is a folder."""
     policies: Mapping[str, AgentSpec]
     """Partners by the names that pages use, in order; the first is the default."""
+    name: str = NAME
+    """Name of the board on the page."""
     robot: str = DEFAULT_ROBOT
     """The robot that policies move."""
     descriptions: Mapping[str, str] = field(default_factory=dict)

@@ -37,6 +37,7 @@ def page(request: Request) -> HTMLResponse:
         live_static=f"{root}/live-static",
         partners=[(name, descriptions.get(name, "")) for name in play.config.policies],
         home=f"{root.removesuffix(play.path)}/" if play.path else "",
+        name=play.config.name,
     )
     return HTMLResponse(text, headers=ISOLATED)
 

@@ -4,6 +4,10 @@
 name                   what it is
 ====================== ==========================================================================
 :func:`evaluate`       scores a policy: an object, a class, a name, a file or a folder
+:func:`load`           the same of a result bundle, from ``colift run --out``
+:func:`inspect`        the reasons of a score: worst lifts, strengths and weaknesses
+:func:`compare`        ranks policies, result bundles and evaluations on the same lifts
+:func:`render`         draws one lift: a picture in a notebook, and files of every kind
 :func:`list_policies`  names that :func:`evaluate` takes; also ``list_suites``, ``list_humans``
 :func:`parallel_env`   the PettingZoo environment, both agents at once; :func:`env` takes turns
 :func:`make`           the Gymnasium environment: the robot is the agent
@@ -25,36 +29,53 @@ if TYPE_CHECKING:
     from typing import Any, Final
 
     from colift import colift_v0, twin
+    from colift.bundles import Inspection, inspect, load
     from colift.colift_v0 import env, parallel_env
+    from colift.comparing import Comparison, compare
     from colift.evaluation import Evaluation, evaluate
     from colift.listing import list_humans, list_policies, list_suites
     from colift.registration import make
+    from colift.rendering import RenderedLift, render
 
     __version__: str
 
 __all__ = [
+    "Comparison",
     "Evaluation",
+    "Inspection",
+    "RenderedLift",
     "__version__",
     "colift_v0",
+    "compare",
     "env",
     "evaluate",
+    "inspect",
     "list_humans",
     "list_policies",
     "list_suites",
+    "load",
     "make",
     "parallel_env",
+    "render",
     "twin",
 ]
 
 _PLACES: Final = {
+    "Comparison": "comparing",
+    "compare": "comparing",
     "Evaluation": "evaluation",
+    "Inspection": "bundles",
+    "RenderedLift": "rendering",
     "env": "colift_v0",
     "evaluate": "evaluation",
+    "inspect": "bundles",
     "list_humans": "listing",
     "list_policies": "listing",
     "list_suites": "listing",
+    "load": "bundles",
     "make": "registration",
     "parallel_env": "colift_v0",
+    "render": "rendering",
 }
 """The module of each public name."""
 

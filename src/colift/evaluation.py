@@ -22,6 +22,9 @@ from colift.benchmark.results.baselines import BASELINES, play_baselines, shippe
 from colift.benchmark.suites.suite import Suite, make_suite
 from colift.outcome import Evaluation
 
+DEFAULT_SUITE = "quick-v1"
+"""The suite of one lift with each of three people on each behaviour."""
+
 UNKNOWN = "unknown"
 """The digest of a policy whose source cannot be read, such as one typed at a prompt."""
 
@@ -86,7 +89,7 @@ __all__ = ["Evaluation", "evaluate"]
 
 def evaluate(
     policy: Agent | type[Agent] | str | Path,
-    suite: str | Suite = "quick-v1",
+    suite: str | Suite = DEFAULT_SUITE,
     *,
     channel: str | Path | Channel | None = None,
     isolation: str = AUTO,
@@ -131,9 +134,9 @@ def evaluate(
     KeyboardInterrupt
         After Ctrl-C; the finished lifts are discarded.
     """
-    spec = _spec(policy, isolation, jobs)
+    spec = policy_spec(policy, isolation, jobs)
     played = make_suite(suite) if isinstance(suite, str) else suite
-    network = make_channel(str(channel)) if isinstance(channel, str | Path) else channel
+    network = chosen_channel(channel)
     baselines = shipped_baselines(played)
     total = played.size * (1 if baselines else 1 + len(BASELINES))
     bar = progress_bar(spec.name, total) if progress else nullcontext(lambda done: None)
@@ -148,8 +151,13 @@ def evaluate(
     return Evaluation(run=run, results=results(run, baselines))
 
 
-def _spec(policy: object, isolation: str, jobs: int) -> AgentSpec:
-    """Return the specification of a policy."""
+def chosen_channel(channel: str | Path | Channel | None) -> Channel | None:
+    """Return a channel, given by its name, by its file, or itself."""
+    return make_channel(str(channel)) if isinstance(channel, str | Path) else channel
+
+
+def policy_spec(policy: object, isolation: str, jobs: int) -> AgentSpec:
+    """Return the specification of a policy for :func:`evaluate`."""
     if isinstance(policy, str | Path):
         return choose_policy(str(policy), isolation)
     if isolation not in (AUTO, NONE):

@@ -1,23 +1,19 @@
 """The outcome of an evaluation, for people and programs."""
 
-import html
-import io
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-from rich.console import Console
+from rich.console import RenderableType
 
 from colift.base.errors import InputError
 from colift.benchmark.bundle import Results
 from colift.benchmark.bundle.table import table_row, treated
 from colift.benchmark.execution.runner import Run
+from colift.benchmark.results.baselines import HUMAN_HUMAN
 from colift.benchmark.tables.failures import reported_failures
-from colift.benchmark.tables.printing import show
+from colift.benchmark.tables.printing import text_of
 from colift.benchmark.tables.results_table import results_table, results_text
-
-WIDTH = 100
-"""Columns of the table as text."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -41,7 +37,7 @@ class Evaluation:
 
     @property
     def vs_human(self) -> float:
-        """RMSE over that of the human-human baseline, geometric mean; below 1 is better."""
+        """RMSE over that of two people, geometric mean; below 1 is better."""
         ratio = self.results.summary.vs_human
         assert ratio is not None  # Evaluations always have the baselines.
         return ratio.mean
@@ -56,10 +52,13 @@ class Evaluation:
         )
 
     def rows(self) -> list[dict[str, object]]:
-        """Return one row per lift, as ``episodes.csv``: subject, seed, scores, failure."""
+        """Return one row per lift, as in ``episodes.csv``: the lift and its scores."""
         suite = self.run.suite
-        played = treated(suite)
-        return [table_row(episode, suite.metrics, played) for episode in self.run.episodes]
+        played, people = treated(suite), self.results.baselines[HUMAN_HUMAN].rmse_mm
+        return [
+            table_row(episode, suite.metrics, played, mm)
+            for episode, mm in zip(self.run.episodes, people, strict=True)
+        ]
 
     def to_frame(self) -> Any:
         """Return :meth:`rows` as a ``pandas.DataFrame``.
@@ -69,23 +68,11 @@ class Evaluation:
         InputError
             If pandas is not installed.
         """
-        try:
-            pandas = import_module("pandas")
-        except ImportError as error:
-            raise InputError("a DataFrame needs pandas: pip install pandas") from error
-        return pandas.DataFrame(self.rows())
+        return frame_of(self.rows())
 
     def __str__(self) -> str:
         """Return the table and the lines below it."""
-        # In Jupyter a console would show the text in the cell instead of writing it to its file.
-        console = Console(
-            file=io.StringIO(), width=WIDTH, no_color=True, force_jupyter=False, _environ={}
-        )
-        metrics = self.run.suite.metrics
-        lines = (results_text(self.results, metrics), *reported_failures(self.run))
-        show(results_table(self.results, metrics), *lines, console=console)
-        assert isinstance(console.file, io.StringIO)
-        return console.file.getvalue().strip("\n")
+        return text_of(*self._parts())
 
     def __repr__(self) -> str:
         """Return policy, suite and error in one line."""
@@ -95,7 +82,29 @@ class Evaluation:
         )
 
     def _repr_html_(self) -> str:
-        """Return the view of a notebook: the picture and the table."""
+        """Return the view of a notebook: the picture, the table and the lines below it."""
+        from colift.benchmark.tables.html import html_of
         from colift.picture import evaluation_picture
 
-        return f"{evaluation_picture(self.run, self.results)}<pre>{html.escape(str(self))}</pre>"
+        return f"{evaluation_picture(self.run, self.results)}\n{html_of(*self._parts())}"
+
+    def _parts(self) -> tuple[RenderableType, ...]:
+        """Return the table and the lines below it."""
+        metrics = self.run.suite.metrics
+        lines = (results_text(self.results, metrics), *reported_failures(self.run))
+        return (results_table(self.results, metrics), *lines)
+
+
+def frame_of(rows: list[dict[str, object]]) -> Any:
+    """Return rows as a ``pandas.DataFrame``.
+
+    Raises
+    ------
+    InputError
+        If pandas is not installed.
+    """
+    try:
+        pandas = import_module("pandas")
+    except ImportError as error:
+        raise InputError("a DataFrame needs pandas: pip install pandas") from error
+    return pandas.DataFrame(rows)

@@ -27,7 +27,7 @@ def test_references_tell_claims_and_whether_they_hold(colift):
     code, told, errors = colift("references", "--people", "1", "--each", "1", "--jobs", "1")
     assert code in (0, 1)
     assert errors == ""
-    for name in ("anticipate", "best known (trained)", "oracle", "human-human baseline", "Claims"):
+    for name in ("anticipate", "best known (trained)", "oracle", "two people", "Claims"):
         assert name in told
     assert ("NO" in told) == (code == 1)
 
@@ -36,7 +36,7 @@ def test_references_tell_claims_and_whether_they_hold(colift):
     ("arguments", "told"),
     [
         (("references", "--seed", "5"), "seeds of new people start at 200000"),
-        (("sweep", "--out", "sweep.txt"), "--out must end in .png"),
+        (("sweep", "--out", "sweep.txt"), "its suffix must be one of .png, .svg, .pdf"),
         (("learn", "anticipate", "--seed", "5", "--lifts", "1"), "seeds for learning are 100000"),
         (("run", "oracle"), "unknown policy 'oracle'"),
     ],

@@ -1,7 +1,11 @@
 """``colift board``, ``token`` and ``worker`` as a user meets them."""
 
+import csv
+import html
+import io
 import json
 import os
+import xml.etree.ElementTree as ET
 
 import pytest
 from colift.base.registry import SUITES, entries
@@ -104,6 +108,33 @@ def test_a_token_is_made_listed_and_revoked(board, colift):
     assert "ada" in colift("token", "list", "--board", "board").stdout
     assert "is revoked" in colift("token", "revoke", "ada", "--board", "board").stdout
     assert Tokens(board).submitter(made.stdout.strip()) is None
+
+
+def test_the_tokens_of_a_course_are_csv(board, colift):
+    made = colift("token", "add", "ada", "emmy", "grace", "--board", "board")
+    rows = list(csv.DictReader(io.StringIO(made.stdout)))
+    assert [each["name"] for each in rows] == ["ada", "emmy", "grace"]
+    assert [Tokens(board).submitter(each["token"]) for each in rows] == ["ada", "emmy", "grace"]
+    refused = colift("token", "add", "max", "Jörg Müller", "--board", "board")
+    assert (refused.returncode, refused.stdout) == (2, "")
+    assert refused.stderr.startswith("error: 'Jörg Müller' must be letters A to Z")
+    assert len(Tokens(board).all()) == 3
+
+
+def test_a_site_has_the_title_of_its_course(filled, colift, tmp_path):
+    title = "HRI 2027 <Zürich>"
+    done = colift("board", "--board", "board", "--site", "site", "--title", title)
+    assert done.returncode == 0, done.stderr
+    page = html.unescape((tmp_path / "site/index.html").read_text())
+    assert f"<title>Season 1 · {title}</title>" in page
+    feed = ET.parse(tmp_path / "site/data/1.atom").find("{http://www.w3.org/2005/Atom}title")
+    assert feed.text == f"{title}, season 1"
+    for bad in ("", "x" * 61, "two\nlines", " around "):
+        refused = colift("board", "--board", "board", "--site", "site", "--title", bad)
+        assert refused.returncode == 2
+        assert "error: --title must be 1 to 60 letters on one line" in refused.stderr
+    lonely = colift("board", "--board", "board", "--title", title)
+    assert "--title belongs to --site" in lonely.stderr
 
 
 def test_a_board_that_begins_with_a_token_has_the_practice_rows(colift, tmp_path):

@@ -44,7 +44,7 @@ def test_run_prints_a_table_and_where_the_policy_stands(colift):
         "jerky",
         "changing_goal",
         "hold (never",
-        "human-human baseline",
+        "two people",
     ):
         assert told in done.stdout
 
@@ -108,7 +108,21 @@ def test_list_names_everything(colift):
         (["run", "colift.agents.agent:FRAME"], "not a class"),
         (["run", "colift.agents.agent:RobotObservation"], "no method reset"),
         (["run", "colift.agents.humans:Subject"], "own, which a sandbox does not see"),
-        (["render", "copy", "--out", "lift.bmp"], ".gif, .mp4, .png, .html"),
+        (
+            ["render", "copy", "--out", "lift.bmp"],
+            ".gif, .webp, .mp4, .png, .svg, .pdf, .glb, .html",
+        ),
+        (["render", "copy", "--out", "a.svg", "--for", "colum"], "--for: no figures for 'colum'"),
+        (["render", "copy", "--out", "a.pdf", "--speed", "2"], "not for a.pdf"),
+        (["compare", "copy", "hold", "--for", "poster"], "known: column, page, slide"),
+        (["paper", "--blend", "forgeting=0.9"], "did you mean forgetting?"),
+        (["paper", "--blend", "forgetting=2"], "--blend: "),
+        (["channels", "copy", "--out", "a.txt"], "its suffix must be one of .png, .svg, .pdf"),
+        (["render", "copy", "--out", "a.gif", "--camera", "left"], "unknown camera 'left'"),
+        (["render", "copy", "--out", "a.gif", "--speed", "99"], "speed must be within"),
+        (["render", "copy", "--out", "a.html", "--camera", "top"], "not for a.html"),
+        (["render", "copy", "--out", "a.gif", "--beside", "nosuch"], "'nosuch'"),
+        (["render", "copy", "--out", "a.gif", "--beside", "ball_calm"], "for the task 'ball'"),
         (["render", "copy", "--behaviour", "smoth", "--out", "lift.png"], "smooth"),
         (["render", "copy", "--subject", "S9", "--out", "lift.png"], "S1, S2, S3, S4, S5"),
         (["bench", "--episodes", "1"], "at least 200"),
@@ -220,6 +234,36 @@ def test_render_draws_a_picture(colift, tmp_path):
     assert done.returncode == 0
     assert (tmp_path / "lift.png").read_bytes().startswith(b"\x89PNG")
     assert "pause/S1 seed 0" in done.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("task", "policy", "behaviour"),
+    [("ball", "ball_calm", "ball_smooth"), ("agree", "agree_leader", "abreast")],
+)
+def test_a_task_has_a_behaviour_of_its_own(colift, tmp_path, task, policy, behaviour):
+    done = colift("render", policy, "--task", task, "--out", "lift.png", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith(f"lift.png: {behaviour}/S1 seed 0, RMSE ")
+
+
+@pytest.mark.slow
+def test_render_draws_partners_beside_each_other(colift, tmp_path):
+    others = ("--beside", "hold", "--beside", "human")
+    done = colift("render", "copy", *others, "--out", "lifts.png", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    score = r"\d+\.\d mm"
+    told = f"lifts.png: smooth/S1 seed 0, RMSE copy {score}, hold {score}, two people {score}\n"
+    assert re.fullmatch(told, done.stdout)
+    assert (tmp_path / "lifts.png").stat().st_size > 10_000
+
+
+@pytest.mark.slow
+def test_render_writes_a_model(colift, tmp_path):
+    pytest.importorskip("trimesh")
+    done = colift("render", "copy", "--out", "lift.glb", cwd=tmp_path)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert (tmp_path / "lift.glb").read_bytes().startswith(b"glTF")
 
 
 @pytest.mark.slow

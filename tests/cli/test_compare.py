@@ -15,7 +15,7 @@ def test_two_policies_are_ranked_against_each_other_and_people(colift, tmp_path:
     done = colift("compare", "hold", "copy", *QUICK, "--out", str(out))
     assert done.returncode == 0
     assert done.stderr == ""
-    names = ("oracle", "best known (trained)", "human-human baseline", "copy", "hold")
+    names = ("oracle", "best known (trained)", "two people", "copy", "hold")
     places = [done.stdout.index(f" {name} ") for name in names]
     assert places == sorted(places)
     for told in ("Behind copy", "vs_human", "changing_goal", "none", "copy is the most level"):
@@ -44,6 +44,29 @@ def test_json_is_alone_on_stdout(colift) -> None:
     content = json.loads(done.stdout)
     assert content["episodes"] == 12
     assert content["suite"] == "quick-v1[0:1]"
+
+
+def test_policies_are_compared_as_run_plays_them(colift) -> None:
+    options = (*QUICK, "--seeds", "0:1", "--latency", "0.05", "--control-period", "0.05", "--json")
+    both = json.loads(colift("compare", "copy", "hold", *options, "--isolation", "limits").stdout)
+    alone = json.loads(colift("run", "copy", *options).stdout)
+    assert (
+        both["suite"] == alone["suite"] == "quick-v1[0:1] (latency 0.05 s, control_period 0.05 s)"
+    )
+    (copy,) = (each for each in both["policies"] if each["name"] == "copy")
+    assert copy["rmse_mm"]["mean"] == alone["summary"]["rmse_mm"]["mean"]
+
+
+def test_a_cluster_gives_the_same_comparison(colift, dask_address) -> None:
+    def compared(*place: str) -> object:
+        done = colift("compare", "copy", "hold", "--suite", "quick-v1", *place, "--json")
+        assert done.returncode == 0, done.stderr
+        content = json.loads(done.stdout)
+        for policy in content["policies"]:
+            del policy["step_ms"]
+        return content
+
+    assert compared("--dask", dask_address) == compared("--jobs", "1")
 
 
 def test_recordings_are_compared(colift, tmp_path: Path) -> None:
@@ -96,6 +119,10 @@ def test_all_takes_every_registered_policy_beside_those_named(colift) -> None:
         (["copy", "nonesuch"], "unknown policy 'nonesuch'"),
         (["copy", "hold", "--seeds", "0:1", "--recordings", "x.csv"], "exclude each other"),
         (["copy", "hold", "--out", "/dev/null"], "cannot be a folder"),
+        (["copy", "hold", "--resume"], "--resume needs the --out of the comparison"),
+        (["copy", "hold", "--resume", "--out", "x"], "there is no interrupted run of x"),
+        (["copy", "hold", "--isolation", "nonesuch"], "unknown isolation 'nonesuch'"),
+        (["copy", "hold", "--latency", "-1"], "latency"),
     ],
 )
 def test_wrong_usage_is_one_clear_line(

@@ -3,6 +3,7 @@
 import os
 import re
 import resource
+import shlex
 import subprocess
 import sys
 from importlib.util import find_spec
@@ -48,6 +49,40 @@ def test_the_help_of_a_command_is_shown_in_full(path):
         assert parameter.help
         assert (letters(parameter.help) in page) is not parameter.hidden
     assert re.findall(r"<[a-z]+[^<>]*>", shown.output) == []  # A type; values have names.
+
+
+LEAVES = {path: each for path, each in ALL.items() if path and not hasattr(each, "commands")}
+
+
+@pytest.mark.parametrize("path", LEAVES, ids=" ".join)
+def test_the_example_in_the_help_of_a_command_is_one_that_it_takes(path):
+    command = LEAVES[path]
+    program, *words = shlex.split(command.epilog)
+    assert (program, *words[: len(path)]) == ("colift", *path)
+    command.make_context(" ".join(path), words[len(path) :])
+    assert f"\nExample:\n  {command.epilog}\n" in CliRunner().invoke(app, [*path, "--help"]).output
+
+
+RUN = (
+    ("list",), ("new",), ("check",), ("run",), ("verify",), ("export",), ("render",), ("compare",),
+    ("submit",), ("board",), ("token", "add"), ("token", "list"), ("token", "revoke"),
+    ("queue", "list"), ("row", "withdraw"), ("row", "reinstate"), ("nao", "run"), ("nao", "replay"),
+)  # fmt: skip
+"""Commands whose examples take seconds, in an order in which each finds what it needs."""
+
+
+@pytest.mark.slow
+def test_the_examples_do_what_they_say(colift, tmp_path):
+    season = ("season", "begin", "short", "--suite", "quick-v1", "--no-own", "--board", "board")
+    assert colift(*season, cwd=tmp_path).returncode == 0
+    for path in RUN:
+        done = colift(*shlex.split(LEAVES[path].epilog)[1:], cwd=tmp_path)
+        assert done.returncode == 0, (path, done.stderr)
+        if path == ("new",):
+            manifest = tmp_path / "mine" / "policy.toml"
+            manifest.write_text(manifest.read_text().replace("Your Name", "Ada"))
+    made = {each.name for each in tmp_path.iterdir()}
+    assert {"mine", "bundle", "minari", "lift.png", "board", "trials"} <= made
 
 
 def test_help_names_every_command(colift):

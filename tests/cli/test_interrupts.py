@@ -9,6 +9,8 @@ import sys
 import time
 
 import pytest
+from colift.benchmark.execution.journal import journal_path
+from colift.cli.evaluation import GO_ON
 
 pytestmark = pytest.mark.slow
 
@@ -144,14 +146,27 @@ def test_an_interrupt_is_said_in_a_line(arguments, tmp_path):
     assert not out.exists()
 
 
-def test_an_interrupted_comparison_leaves_no_folder(tmp_path):
+def test_an_interrupted_comparison_can_be_resumed_and_leaves_no_folder(tmp_path):
+    out = tmp_path / "new" / "folder"
     command = ("compare", "hold", "copy", "--suite", "quick-v1", "--jobs", "1")
     process = subprocess.run(
-        [sys.executable, "-c", INTERRUPTED, *command, "--out", str(tmp_path / "new" / "folder")],
+        [sys.executable, "-c", INTERRUPTED, *command, "--out", str(out)],
         capture_output=True,
         text=True,
         timeout=120,
     )
     assert process.returncode == 130
-    assert process.stderr.startswith("interrupted: ")
-    assert list(tmp_path.iterdir()) == []
+    assert process.stderr == f"interrupted: {GO_ON}\n"
+    assert list(tmp_path.rglob("*")) == [out.parent, journal_path(out)]
+
+
+def test_a_comparison_without_a_folder_is_interrupted_as_a_whole():
+    command = ("compare", "hold", "copy", "--suite", "quick-v1", "--jobs", "1")
+    process = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, *command],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert (process.returncode, process.stdout) == (130, "")
+    assert process.stderr.startswith("interrupted: policies are compared on all lifts or not at")

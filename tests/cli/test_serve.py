@@ -187,7 +187,7 @@ def test_without_its_libraries_it_says_how_to_get_them(folder):
 def test_visitors_lift_if_the_board_offers_rooms(serve, folder):
     _, line = serve("--port", "0", "--workers", "0", "--play", "1", "--root", "/lab")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    assert '<a href="/lab/play/">Lift</a>' in web.get(f"{url}/").text
+    assert '<a href="/lab/play/">Try it</a>' in web.get(f"{url}/").text
     page = web.get(f"{url}/play/")
     assert page.headers["Cross-Origin-Embedder-Policy"] == "require-corp"
     assert page.headers["Content-Security-Policy"].startswith("default-src 'self'")
@@ -200,9 +200,25 @@ def test_visitors_lift_if_the_board_offers_rooms(serve, folder):
     assert (folder / "live" / session[0] / "session.json").is_file()
 
 
+def test_pages_have_the_title_of_a_course_and_so_have_links_to_them_elsewhere(serve):
+    _, line = serve("--port", "0", "--workers", "0", "--play", "1", "--title", "HRI")
+    url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
+    text = web.get(f"{url}/").text
+    for wanted in (
+        "<title>Season 1 · HRI</title>",
+        '<meta property="og:site_name" content="HRI">',
+        '<meta property="og:title" content="Season 1 · HRI">',
+    ):
+        assert wanted in text
+    assert "<title>Lift with a robot · HRI</title>" in web.get(f"{url}/play/").text
+    missing = web.get(f"{url}/nowhere", headers={"Accept": "text/html"})
+    assert missing.status_code == 404
+    assert "· HRI</title>" in missing.text
+
+
 def test_a_board_without_rooms_has_no_sockets(serve):
     _, line = serve("--port", "0", "--workers", "0")
     url = re.search(r"http://127\.0\.0\.1:\d+", line)[0]
-    assert ">Lift</a>" not in web.get(f"{url}/").text
+    assert ">Try it</a>" not in web.get(f"{url}/").text
     upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13"}
     assert web.get(f"{url}/play/socket", headers=upgrade).status_code == 404

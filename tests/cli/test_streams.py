@@ -32,7 +32,7 @@ def shell(line, cwd, **environment):
 def test_a_stream_that_is_not_utf_8_gets_the_result(tmp_path, command, encoding):
     done = shell(f"{COLIFT} {command}", tmp_path, PYTHONIOENCODING=encoding)
     assert (done.returncode, done.stderr) == (0, b"")
-    assert (b"blend" if command == "list" else b"human-human baseline") in done.stdout
+    assert (b"blend" if command == "list" else b"two people") in done.stdout
     done.stdout.decode(encoding)
 
 
@@ -135,7 +135,12 @@ def test_both_signals_keep_what_is_finished(slow, tmp_path, number, code):
 
 @pytest.mark.parametrize(
     ("suffix", "number"),
-    [("gif", signal.SIGTERM), ("mp4", signal.SIGTERM), ("mp4", signal.SIGINT)],
+    [
+        ("gif", signal.SIGTERM),
+        ("webp", signal.SIGTERM),
+        ("mp4", signal.SIGTERM),
+        ("mp4", signal.SIGINT),
+    ],
 )
 def test_a_film_that_is_ended_leaves_nothing(tmp_path, suffix, number):
     if suffix == "mp4":

@@ -100,7 +100,7 @@ def told(done):
 
 def test_a_submission_becomes_a_verified_row_whose_bundle_can_be_verified(colift, first, place):
     assert first.returncode == 0
-    lines = set(first.stderr.splitlines()) - {*STAGES, "human-human baseline"}
+    lines = set(first.stderr.splitlines()) - {*STAGES, "two people"}
     assert all(" does not work here: " in line for line in lines)
     for words in ("mine by Ada Lovelace", "public lifts", "hidden lifts", "0 of 12", "Rank 1 of 1"):
         assert words in told(first)

@@ -147,3 +147,15 @@ def test_shipped_scores_of_colifts_own_policies_are_not_played_again(colift, fil
 )
 def test_a_sources_name_is_broken_between_its_parts(name, lines):
     assert source_heading(name).split("\n") == lines
+
+
+def test_lifts_as_recorded_stand_beside_the_recorded_pairs(colift, tmp_path):
+    path = write(tmp_path / "pairs.csv", lambda u: 0.6 * math.sin(math.pi * u) ** 2)
+    first, *rows = path.read_text().splitlines()
+    far = [f"{row},{0.9 * float(row.split(',')[2]):.5f}" for row in rows]
+    path.write_text("\n".join([f"{first},z_far_m", *far]) + "\n")
+    scaled, own = (colift("validity", path, *FEW, *more) for more in ((), ("--as-recorded",)))
+    assert "recorded pairs themselves" not in scaled.stdout
+    assert "pairs as recorded: 4 lifts, two people " in own.stdout
+    assert "The recorded pairs themselves: " in own.stdout
+    assert "of that, the simulated two people " in own.stdout

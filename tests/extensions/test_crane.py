@@ -29,6 +29,10 @@ def test_it_plays_is_scored_and_verified(colift):
     assert "copy on quick-v1 (crane)" in done.stdout
     verified = colift("verify", "mine")
     assert verified.returncode == 0, verified.stdout + verified.stderr
+    inspected = colift("inspect", "mine", "--worst", "1")
+    assert "copy on quick-v1 (crane)" in inspected.stdout, inspected.stderr
+    drawn = colift("render", "mine", "--out", "worst.png")
+    assert drawn.returncode == 0, drawn.stderr
 
 
 def test_its_hand_is_as_fast_as_it_says():

@@ -1,9 +1,11 @@
 """The isolation levels, strongest first, and which of them work here."""
 
 import contextlib
+import ctypes
 import json
 import logging
 import math
+import mmap
 import os
 import socket
 import subprocess
@@ -27,11 +29,13 @@ log: Final = logging.getLogger("colift.sandbox")
 """The reasons in the system's words, as information."""
 
 LEVELS: Final = {
-    BUBBLEWRAP: "own file system, processes, network and users; Landlock, filter",
-    LANDLOCK: "namespaces of file systems, processes, network and users; Landlock, filter",
-    LIMITS: "no namespaces: resource limits; Landlock and the filter where the kernel has them",
+    BUBBLEWRAP: "all of landlock, within the walls of the program bubblewrap",
+    LANDLOCK: "the policy has files, processes, a network and users of its own, and may make only "
+    "the system calls of a short list",
+    LIMITS: "no walls: memory and time are limited, and files and system calls where the kernel "
+    "can do that",
 }
-"""The levels with their parts."""
+"""The levels, each in words."""
 
 VERIFIABLE: Final = frozenset({BUBBLEWRAP, LANDLOCK})
 """Levels whose results can be called verified: on the others a policy can cheat."""
@@ -50,6 +54,9 @@ _SECONDS: Final = 60.0
 
 _SHARED: Final = 1 << 20
 """Size of the file that the probe shares with others: it touches only the beginning [bytes]."""
+
+_SHORT: Final = "/tmp"
+"""Folder of the probe's socket, whose path has at most 107 characters wherever others lie."""
 
 _PROBE: Final = Assignment("colift.agents.sandbox.guest.probe:Probe")
 
@@ -163,6 +170,7 @@ def holes(name: str) -> list[str]:
     with (
         tempfile.TemporaryDirectory(prefix="colift-probe-") as directory,
         tempfile.TemporaryDirectory(prefix="colift-probe-") as seen,
+        tempfile.TemporaryDirectory(prefix="colift-probe-", dir=_SHORT) as near,
         socket.create_server(("127.0.0.1", 0)) as listening,
         socket.socket(socket.AF_UNIX) as local,
         subprocess.Popen(
@@ -176,7 +184,7 @@ def holes(name: str) -> list[str]:
             os.fsync(file.fileno())
             os.posix_fadvise(file.fileno(), 0, 0, os.POSIX_FADV_DONTNEED)
         os.utime(shared, (1, 2))  # Older than written: the next access is recorded.
-        local.bind(str(Path(directory, "socket")))
+        local.bind(str(Path(near, "socket")))
         local.listen()
         files = (secret, "/etc/shadow", *(AGENTS / each for each in _SECRETS))
         secrets = {
@@ -209,12 +217,15 @@ def holes(name: str) -> list[str]:
 
 
 def _in_memory(path: Path) -> bool:
-    """Return whether the last page of a file is in memory."""
-    file = os.open(path, os.O_RDONLY | os.O_NOATIME)
+    """Return whether the last page of a file is in memory; its time of access stays as it is."""
+    handle = os.open(path, os.O_RDONLY | os.O_NOATIME)
     try:
-        os.preadv(file, [bytearray(1)], _SHARED - 1, os.RWF_NOWAIT)
-    except BlockingIOError:
-        return False
+        with mmap.mmap(handle, 0, access=mmap.ACCESS_COPY) as pages:
+            found = (ctypes.c_ubyte * math.ceil(len(pages) / mmap.PAGESIZE))()
+            start = ctypes.c_void_p(ctypes.addressof(ctypes.c_char.from_buffer(pages)))
+            # Not preadv with RWF_NOWAIT: the file systems of containers do not have it.
+            if ctypes.CDLL(None, use_errno=True).mincore(start, ctypes.c_size_t(len(pages)), found):
+                raise OSError(ctypes.get_errno(), "mincore")
     finally:
-        os.close(file)
-    return True
+        os.close(handle)
+    return bool(found[-1] & 1)

@@ -3,9 +3,21 @@
 import re
 from typing import Final
 
-_NAMESPACES: Final = re.compile(r"namespace|unshare|setns|uid map|gid map|bwrap: loopback")
+_NAMESPACES: Final = re.compile(
+    r"namespace|unshare|setns|uid map|gid map|bwrap: loopback|mount proc"
+)
+
+CONTAINER: Final = (
+    "docker run --security-opt seccomp=unconfined --security-opt systempaths=unconfined"
+)
+"""How Docker runs a container in which a sandbox can be made: with all calls, and the whole of
+``/proc``, without which the kernel refuses the sandbox a ``/proc`` of its own."""
 
 _REFUSALS: Final = (
+    (
+        re.compile(r"mount proc"),
+        f"this container hides parts of /proc: {CONTAINER}",
+    ),
     (
         re.compile(r"\[Errno 28\]|No space left on device"),
         "this machine allows no more user namespaces: sysctl -w user.max_user_namespaces=15000",
@@ -18,12 +30,13 @@ _REFUSALS: Final = (
     (
         re.compile(r"\[Errno 1\]|Operation not permitted|No permissions to create"),
         "this machine forbids user namespaces: sysctl -w kernel.unprivileged_userns_clone=1, or in "
-        "a container: docker run --security-opt seccomp=unconfined",
+        f"a container: {CONTAINER}",
     ),
 )
-"""Errors of the kernel: a limit of namespaces, a security module, a setting or a filter."""
+"""Errors of the kernel: a hidden ``/proc``, a limit of namespaces, a security module, a setting, a
+filter."""
 
-GUIDE: Final = "see docs/guides/submissions.md"
+GUIDE: Final = "see docs/guides/sandbox.md"
 
 
 def in_words(reason: str) -> str:

@@ -1,1 +1,1 @@
-"""The scatter picture of error against smoothness: one scene, drawn as PNG or SVG."""
+"""The scatter picture of error against smoothness: one scene, drawn for files or for pages."""

@@ -1,4 +1,4 @@
-"""The look of the scatter picture, drawn with any pen: that of PNG or that of SVG."""
+"""The look of the scatter picture, drawn with any pen: that of files or that of pages."""
 
 from collections.abc import Sequence
 from typing import Final, Literal, Protocol
@@ -6,9 +6,8 @@ from typing import Final, Literal, Protocol
 from colift.benchmark.comparison.front import FrontPoint
 from colift.benchmark.comparison.scatter.scale import Box, Place
 from colift.benchmark.comparison.scatter.scene import (
+    LETTERS,
     LINE_HEIGHT,
-    NAME_SIZE,
-    NOTE_SIZE,
     Dot,
     ScatterScene,
 )
@@ -84,43 +83,43 @@ def _draw_axes(scene: ScatterScene, pen: Pen) -> None:
         pen.rectangle((left, still, right, bottom), "card")
     for tick in scene.across:
         pen.line(((tick.at, top), (tick.at, bottom)), "line", 1)
-        pen.text((tick.at, bottom + 17), tick.text, "faint", 12)
+        pen.text((tick.at, bottom + 17), tick.text, "faint", LETTERS)
     for tick in scene.up:
         pen.line(((left, tick.at), (right, tick.at)), "line", 1)
-        pen.text((left - 8, tick.at + RISE * 12), tick.text, "faint", 12, anchor="end")
+        pen.text((left - 8, tick.at + RISE * LETTERS), tick.text, "faint", LETTERS, anchor="end")
     for tick in scene.ratios:
-        pen.text((tick.at, top - 6), tick.text, "human", NOTE_SIZE)
+        pen.text((tick.at, top - 6), tick.text, "human", LETTERS)
     middle = (left + right) / 2
-    pen.text((middle, height - 10), scene.axis, "ink", 12)
-    pen.text((15, (top + bottom) / 2), scene.axis_up, "ink", 12, upward=True)
+    pen.text((middle, height - 10), scene.axis, "ink", LETTERS)
+    pen.text((15, (top + bottom) / 2), scene.axis_up, "ink", LETTERS, upward=True)
     if scene.baseline is not None:
         text = "RMSE divided by that of two people"
-        pen.text((middle, top - 25), text, "human", NOTE_SIZE)
+        pen.text((middle, top - 25), text, "human", LETTERS)
         ends = ((scene.baseline, top), (scene.baseline, bottom))
         pen.line(ends, "human", 1.5, dashed=True)
     for note in scene.notes:
         x, _, _, base = note.box
-        pen.text((x + 4, base - 5), note.text, "faint", NOTE_SIZE, anchor="start", italic=True)
+        pen.text((x + 4, base - 5), note.text, "faint", LETTERS, anchor="start", italic=True)
     for i, line in enumerate(scene.title):
         at = (14, 23 + 20 * i)
         if i == 0:
             pen.text(at, line, "ink", 16, anchor="start", bold=True)
         else:
-            pen.text(at, line, "faint", 12.5, anchor="start")
+            pen.text(at, line, "faint", LETTERS, anchor="start")
 
 
 def _write_name(dot: Dot, pen: Pen) -> None:
     if dot.label is None:
         return
     left, top, right, bottom = dot.label.box
-    point, step = dot.point, NAME_SIZE * LINE_HEIGHT
-    first = (top + bottom) / 2 - step * (len(dot.label.lines) - 1) / 2 + RISE * NAME_SIZE
+    point, step = dot.point, LETTERS * LINE_HEIGHT
+    first = (top + bottom) / 2 - step * (len(dot.label.lines) - 1) / 2 + RISE * LETTERS
     for i, line in enumerate(dot.label.lines):
         pen.text(
             ((left + right) / 2, first + step * i),
             line,
             _name_colour(point),
-            NAME_SIZE,
+            LETTERS,
             bold=dot.best or point.kind == "baseline",
             italic=point.kind == "reference",
             halo=True,

@@ -31,9 +31,8 @@ TICK_DIGITS: Final = 3
 TICK_DIGIT: Final = 8
 """Width of one more digit [px]."""
 
-NAME_SIZE: Final = 12.5
-NOTE_SIZE: Final = 11.5
-"""Sizes of letters [px]."""
+LETTERS: Final = 12.0
+"""Size of letters [px]."""
 LINE_HEIGHT: Final = 1.2
 """Distance between the lines of a text, relative to the size of its letters."""
 RADIUS: Final = 5.0
@@ -226,8 +225,8 @@ def _dots(
         [places[i] for i in order],
         [
             (
-                max(text_width(line, NAME_SIZE, bold=i in bold) for line in text) + 2 * CLEAR,
-                NAME_SIZE * LINE_HEIGHT * len(text),
+                max(text_width(line, LETTERS, bold=i in bold) for line in text) + 2 * CLEAR,
+                LETTERS * LINE_HEIGHT * len(text),
             )
             for i, text in zip(order, texts, strict=True)
         ],
@@ -303,11 +302,11 @@ def _notes(
 ) -> tuple[Note, ...]:
     """Return the notes that explain the strips and the asterisk."""
     left, top, right, bottom = scale.plot
-    floor, height = scale.inner[3], NOTE_SIZE * LINE_HEIGHT + CLEAR
+    floor, height = scale.inner[3], LETTERS * LINE_HEIGHT + CLEAR
     texts = []
     if scale.beyond:
         text = "off the scale" if wide else "beyond"
-        texts.append((text, right - text_width(text, NOTE_SIZE) - CLEAR, top + CLEAR))
+        texts.append((text, right - text_width(text, LETTERS) - CLEAR, top + CLEAR))
     if scale.still:
         why = f"{metric.words.absent}: " if wide and metric.words.absent else ""
         text = f"{why}no {metric.noun}"
@@ -315,7 +314,7 @@ def _notes(
     if any(point.second and point.missing for point in points):
         texts.append((f"* without {metric.noun} in some lifts", left + CLEAR, floor - height))
     return tuple(
-        Note(text=text, box=(x, y, x + text_width(text, NOTE_SIZE), y + height))
+        Note(text=text, box=(x, y, x + text_width(text, LETTERS), y + height))
         for text, x, y in texts
     )
 

@@ -4,18 +4,12 @@ from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
-from colift.benchmark.paper.exhibits import (
-    CONFIDENCE,
-    PREDICTION,
-    Claim,
-    Exhibit,
-    legend,
-    panels,
-    shade,
-)
+from colift.benchmark.paper.exhibits import STEPS, Claim, Exhibit, shade
 from colift.benchmark.paper.topics.timing import MOVING
 from colift.benchmark.paper.watched import SampledLift
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import CONFIDENCE, DASHES, FAINT, HUMAN, INK, PREDICTION
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -178,12 +172,12 @@ def moving_confidence(lifts: Sequence[SampledLift]) -> Series:
     return np.concatenate([lift.confidence[lift.speed > MOVING] for lift in lifts])
 
 
-def confidence_exhibit(lift: SampledLift) -> Exhibit:
+def confidence_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
     """Return figure 5 from one lift."""
     strokes = [
         (lift.step_showing(start), lift.step_showing(stop)) for start, stop in lift.plan.strokes
     ]
-    figure, _ = _panels(lift, strokes, "the human moves")
+    figure, _ = _panels(lift, strokes, "the human moves", layout)
     return Exhibit(
         name="figure-5",
         title="Figure 5. Confidence together with predictions and observations",
@@ -195,17 +189,16 @@ def confidence_exhibit(lift: SampledLift) -> Exhibit:
     )
 
 
-def pause_exhibit(lift: SampledLift) -> Exhibit:
+def pause_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
     """Return figure 6 from one lift that pauses."""
     onset, still, resume = (lift.step_showing(lift.event(e)) for e in ("brake", "pause", "resume"))
-    figure, (upper, lower) = _panels(lift, [(still, resume)], "the human stands still")
-    for axes in (upper, lower):
-        for step in (onset, resume):
-            axes.axvline(step, color=INK, lw=0.9, ls=(0, (4, 3)))
-    for step, word in ((onset, "begins to stop"), (resume, "goes on")):
-        lower.annotate(
-            word, (step, 1.02), ha="center", va="bottom", fontsize=8.5, color=FAINT, clip_on=False
-        )
+    figure, (upper, lower) = _panels(lift, [(still, resume)], "the human stands still", layout)
+    lower.set_ylim(top=1.35)
+    lower.set_yticks([0.0, 0.5, 1.0])
+    for step, word, side in ((onset, "brakes", "right"), (resume, "goes on", "left")):
+        upper.axvline(step, color=INK, lw=0.9, ls=DASHES)
+        lower.axvline(step, color=INK, lw=0.9, ls=DASHES)
+        lower.annotate(f" {word} ", (step, 1.05), ha=side, va="bottom", color=FAINT)
     return Exhibit(
         name="figure-6",
         title="Figure 6. An irregular case: a pause on the way up",
@@ -219,9 +212,11 @@ def pause_exhibit(lift: SampledLift) -> Exhibit:
 
 
 def _panels(
-    lift: SampledLift, spans: Sequence[tuple[float, float]], label: str
+    lift: SampledLift, spans: Sequence[tuple[float, float]], label: str, layout: Layout
 ) -> tuple[Figure, tuple[Axes, Axes]]:
-    figure, ((upper,), (lower,)) = panels(["position [mm]", "confidence C"], [2.2, 1.6])
+    figure, ((upper,), (lower,)) = panels(
+        layout, ["position [mm]", "confidence C"], [2.2, 1.6], x_label=STEPS
+    )
     steps = np.arange(len(lift.samples))
     shade(upper, spans, label)
     shade(lower, spans)

@@ -5,11 +5,13 @@ from typing import Final
 
 import numpy as np
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.paper.exhibits import CONFIDENCE, Claim, Exhibit, panels, shade
-from colift.benchmark.paper.refilter import confidence_trajectory, refilter
+from colift.benchmark.paper.exhibits import STEPS, Claim, Exhibit, shade
+from colift.benchmark.paper.refilter import confidence_trajectory
 from colift.benchmark.paper.table_one import FORGETTING, FORGETTING_FACTORS, errors
 from colift.benchmark.paper.watched import SampledLift, rms
-from colift.benchmark.rendering.style import HUMAN, INK
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import panels
+from colift.benchmark.rendering.style import CONFIDENCE, HUMAN
 from numpy.typing import ArrayLike
 
 SETTLED: Final = 0.05
@@ -25,9 +27,7 @@ def forgetting_claims(
 
 
 def _fluctuates(rests: Sequence[SampledLift], factors: Sequence[float]) -> Claim:
-    likelihoods = [
-        refilter(lift.samples, lift.scenario.control_period).likelihood for lift in rests
-    ]
+    likelihoods = [lift.refiltered.likelihood for lift in rests]
     means = [
         float(
             np.mean([fluctuation(confidence_trajectory(profile, phi)) for profile in likelihoods])
@@ -101,9 +101,7 @@ def _sparc(run: Run) -> list[float]:
 
 def _after_braking(lift: SampledLift, forgetting: float) -> float:
     """Return the confidence in the fifth step that shows the braking, offline."""
-    profile = confidence_trajectory(
-        refilter(lift.samples, lift.scenario.control_period).likelihood, forgetting
-    )
+    profile = confidence_trajectory(lift.refiltered.likelihood, forgetting)
     return float(profile[lift.step_showing(lift.event("brake")) + 4])
 
 
@@ -113,13 +111,15 @@ def _listed(factors: Sequence[float], values: Sequence[float], digits: str) -> s
     )
 
 
-def forgetting_exhibit(lift: SampledLift) -> Exhibit:
+def forgetting_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
     """Return figure 7 from one lift with a long pause."""
-    refiltered = refilter(lift.samples, lift.scenario.control_period)
     start, stop = (lift.step_showing(lift.event(event)) for event in ("pause", "resume"))
+    likelihoods = lift.refiltered.likelihood
     figure, rows = panels(
+        layout,
         ["position [mm]", *(f"φ = {phi:.2f}" for phi in FORGETTING_FACTORS)],
         [1.3, *[0.8] * len(FORGETTING_FACTORS)],
+        x_label=STEPS,
     )
     steps = np.arange(len(lift.samples))
     shade(rows[0][0], [(start, stop)])
@@ -127,31 +127,26 @@ def forgetting_exhibit(lift: SampledLift) -> Exhibit:
     columns: dict[str, Sequence[float]] = {
         "step": steps.tolist(),
         "observed_position_m": lift.samples.tolist(),
-        "likelihood": refiltered.likelihood.tolist(),
+        "likelihood": likelihoods.tolist(),
     }
+    changes: list[float] = []
     for (axes,), phi in zip(rows[1:], FORGETTING_FACTORS, strict=True):
-        profile = confidence_trajectory(refiltered.likelihood, phi)
+        profile = confidence_trajectory(likelihoods, phi)
         columns[f"confidence_phi_{phi:.2f}"] = profile.tolist()
         shade(axes, [(start, stop)])
         axes.plot(steps, profile, color=CONFIDENCE, lw=1.8)
         axes.set_ylim(-0.05, 1.08)
-        axes.annotate(
-            f"fluctuation {fluctuation(profile):.3f} per step, "
-            f"settles in {settling(lift, phi)} steps",
-            (stop - 1, 0.12),
-            ha="right",
-            fontsize=8.5,
-            color=INK,
-        )
+        axes.annotate(f"settles in {settling(lift, phi)} steps", (stop - 1, 0.12), ha="right")
+        changes.append(fluctuation(profile))
     return Exhibit(
         name="figure-7",
         title="Figure 7. Effect of the forgetting factor on confidence",
         caption=f"Subject {lift.episode.subject}, seed {lift.episode.seed}: one recorded lift with "
         "a long rest half way (shaded), its confidence computed offline for each forgetting "
         "factor. A low one follows every likelihood; a high one takes seconds to notice anything. "
-        "Fluctuation is the root mean square change of C from one step to the next over the lift; "
-        "settling is the time from the human's standstill until C first comes within 5 % of its "
-        "value at rest.",
+        "From one step to the next C changes by (root mean square over the lift) "
+        f"{_listed(FORGETTING_FACTORS, changes, '.3f')}. Settling is the time from the human's "
+        "standstill until C first comes within 5 % of its value at rest.",
         figure=figure,
         columns=columns,
     )
@@ -171,8 +166,7 @@ def settling(lift: SampledLift, forgetting: float, *, staying: bool = False) -> 
     staying
         Whether to wait for the last departure, noise included, instead of the first arrival.
     """
-    refiltered = refilter(lift.samples, lift.scenario.control_period)
-    profile = confidence_trajectory(refiltered.likelihood, forgetting)
+    profile = confidence_trajectory(lift.refiltered.likelihood, forgetting)
     start, stop = (lift.step_showing(lift.event(event)) for event in ("pause", "resume"))
     return settling_steps(profile[start:stop], staying=staying)
 

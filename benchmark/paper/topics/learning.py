@@ -6,9 +6,11 @@ from typing import Any, Final
 
 import numpy as np
 from colift.agents.control.q_learning import ACTIONS, Q_PARAMETERS, learned_table, state_of
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit
 from colift.benchmark.paper.table_one import LONGEST_ITERATIONS, MEDIAN_ITERATIONS, TRIALS
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import DASHES, FAINT, HUMAN, INK
 from colift.benchmark.training.q_learning import LearningTrial
 from numpy.typing import NDArray
 
@@ -108,16 +110,16 @@ def _finite(value: float) -> float | None:
     return value if np.isfinite(value) else None
 
 
-def learning_exhibit(trials: Sequence[LearningTrial]) -> Exhibit:
+def learning_exhibit(trials: Sequence[LearningTrial], layout: Layout) -> Exhibit:
     """Return the histogram of the iterations to convergence."""
     converged = [trial.converged_at for trial in trials if trial.converged_at is not None]
-    figure, ((axes,),) = panels(["trials"], [2.6], x_label="iterations until convergence")
+    figure, ((axes,),) = panels(layout, ["trials"], [2.6], x_label="iterations until convergence")
     longest = max(len(trial.rewards) for trial in trials)
     axes.hist(converged, bins=list(range(0, longest + 5, 5)), color=HUMAN, alpha=0.65)
     lines: tuple[tuple[float, str, Any, str], ...] = (
         (float(np.median(converged)) if converged else math.nan, HUMAN, "-", "our median"),
         (MEDIAN_ITERATIONS, INK, "-", "the paper's median"),
-        (LONGEST_ITERATIONS, FAINT, (0, (4, 3)), "the paper's longest of ten"),
+        (LONGEST_ITERATIONS, FAINT, DASHES, "the paper's longest of ten"),
     )
     for value, colour, dashes, label in lines:
         axes.axvline(value, color=colour, lw=1.8, ls=dashes, label=label)

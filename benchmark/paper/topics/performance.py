@@ -1,4 +1,4 @@
-"""Performance with and without prediction, and of two humans: claims, figures 8 and 9."""
+"""Performance with and without prediction, and of two people: claims, figures 8 and 9."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,11 +8,13 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metrics import stroke_smoothness
 from colift.benchmark.episode.smoothness import sparc
 from colift.benchmark.paper.evidence import Evidence
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit, p_value_text
 from colift.benchmark.paper.table_one import errors, single_lifts
 from colift.benchmark.paper.topics.confidence import moving_confidence
 from colift.benchmark.paper.watched import SampledLift, sampled_lifts
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK, ROBOT
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import FAINT, HUMAN, ROBOT, ROBOT_DASHES
 from colift.benchmark.statistics import Units, mean_of, paired_permutation_p
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -94,7 +96,7 @@ def stroke_scores(lift: SampledLift) -> tuple[float, float]:
 
 
 def _jerky(evidence: Evidence) -> list[Claim]:
-    jerky = sampled_lifts(evidence.jerky_blend)
+    jerky = sampled_lifts(evidence.jerky_blend, evidence.parameters)
     smooth_c, jerky_c = (
         float(moving_confidence(lifts).mean()) for lifts in (evidence.lifts, jerky)
     )
@@ -153,7 +155,7 @@ def _both(a: Series, b: Series) -> tuple[Series, Series]:
     return a[present], b[present]
 
 
-def comparison_exhibit(blend: Episode, reactive: Episode) -> Exhibit:
+def comparison_exhibit(blend: Episode, reactive: Episode, layout: Layout) -> Exhibit:
     """Return figure 8: the same lift with and without prediction."""
     return Exhibit(
         name="figure-8",
@@ -165,6 +167,7 @@ def comparison_exhibit(blend: Episode, reactive: Episode) -> Exhibit:
             {"case I: with prediction": blend, "case II: without": reactive},
             "robot's end",
             error_limit(blend, reactive),
+            layout,
         ),
         columns={**_columns(blend, "with_"), **_columns(reactive, "without_", time=False)},
     )
@@ -176,22 +179,23 @@ def error_limit(*episodes: Episode) -> float:
     return 1050 * max(float(np.abs(t.human_end - t.robot_end).max()) for t in traces)
 
 
-def human_human_exhibit(episode: Episode, limit: float) -> Exhibit:
-    """Return figure 9: two humans, the error's axis up to ``limit`` [mm]."""
+def human_human_exhibit(episode: Episode, limit: float, layout: Layout) -> Exhibit:
+    """Return figure 9: two people, the error's axis up to ``limit`` [mm]."""
     return Exhibit(
         name="figure-9",
-        title="Figure 9. The human-human baseline",
-        caption=f"Subject {episode.subject}, seed {episode.seed}, with a second human at the far "
+        title="Figure 9. Two people",
+        caption=f"Subject {episode.subject}, seed {episode.seed}, with a second person at the far "
         "end instead of the robot: the same intention as in figure 8, and the "
         "same scale of the error.",
-        figure=_figure({"two humans": episode}, "partner's end", limit),
+        figure=_figure({"two people": episode}, "partner's end", limit, layout),
         columns=_columns(episode, ""),
     )
 
 
-def _figure(cases: Mapping[str, Episode], far: str, limit: float) -> Figure:
+def _figure(cases: Mapping[str, Episode], far: str, limit: float, layout: Layout) -> Figure:
     figure, (upper, lower) = panels(
-        ["height [mm]", "|Z1 - Z2| [mm]"],
+        layout,
+        ["height [mm]", "|Z1 \N{MINUS SIGN} Z2| [mm]"],
         [2.2, 1.4],
         columns=len(cases),
         x_label="time [s]",
@@ -201,21 +205,16 @@ def _figure(cases: Mapping[str, Episode], far: str, limit: float) -> Figure:
         trace, scores = episode.trace, episode.scores
         times = np.arange(1, len(trace.human_end) + 1) * FRAME
         above.plot(times, 1000 * trace.human_end, color=HUMAN, lw=1.8, label="human's end")
-        above.plot(times, 1000 * trace.robot_end, color=ROBOT, lw=1.8, label=far)
+        above.plot(times, 1000 * trace.robot_end, color=ROBOT, lw=1.8, ls=ROBOT_DASHES, label=far)
         error = 1000 * np.abs(trace.human_end - trace.robot_end)
         below.fill_between(times, error, color=FAINT, alpha=0.35, lw=0)
         below.plot(times, error, color=FAINT, lw=1.0)
-        above.set_title(
-            f"{name}\nRMSE {scores['rmse_mm']:.1f} mm, "
-            f"absolute error {scores['abs_error_mm']:.0f} mm, SPARC {scores['sparc']:.2f}",
-            fontsize=9,
-            color=INK,
-            loc="left",
-            pad=20,
-        )
-        legend(above)
+        smoothness = f"{scores['sparc']:.2f}".replace("-", "\N{MINUS SIGN}")
+        sum_of = f"sum {scores['abs_error_mm']:.0f} mm"
+        below.annotate(sum_of, (1, 1), xycoords="axes fraction", ha="right", va="top")
+        legend(above, f"{name}\nRMSE {scores['rmse_mm']:.1f} mm, SPARC {smoothness}")
     for below in lower:
-        below.set_ylim(0, limit)
+        below.set_ylim(0, 1.3 * limit)
     return figure
 
 

@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from colift.benchmark.paper.exhibits import PREDICTION, Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.exhibits import STEPS, Claim, Exhibit, p_value_text
 from colift.benchmark.paper.table_one import single_lifts
 from colift.benchmark.paper.watched import SampledLift, rms
-from colift.benchmark.rendering.style import HUMAN
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import HUMAN, PREDICTION
 from colift.benchmark.statistics import paired_permutation_p
 from numpy.typing import NDArray
 
@@ -163,7 +165,7 @@ def _acceleration(lifts: Sequence[SampledLift]) -> Claim:
     )
 
 
-def prediction_exhibit(lift: SampledLift) -> Exhibit:
+def prediction_exhibit(lift: SampledLift, layout: Layout) -> Exhibit:
     """Return figure 4 from one lift."""
     velocity, acceleration = derivatives(lift)
     observed = (lift.samples, velocity, acceleration)
@@ -171,7 +173,10 @@ def prediction_exhibit(lift: SampledLift) -> Exhibit:
     predicted = [lift.one_step_ahead(name) for name in names]
     units = ("mm", "mm/s", "mm/s²")
     figure, rows = panels(
-        [f"{name} [{unit}]" for name, unit in zip(_QUANTITIES, units, strict=True)], [1.9, 1.5, 1.5]
+        layout,
+        [f"{name} [{unit}]" for name, unit in zip(_QUANTITIES, units, strict=True)],
+        [1.9, 1.5, 1.5],
+        x_label=STEPS,
     )
     steps = np.arange(len(lift.samples))
     for (axes,), seen, expected in zip(rows, observed, predicted, strict=True):

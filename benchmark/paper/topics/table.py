@@ -2,9 +2,11 @@
 
 from typing import Final
 
-from colift.benchmark.paper.exhibits import Claim, Exhibit, legend, p_value_text, panels
+from colift.benchmark.paper.exhibits import Claim, Exhibit, p_value_text
 from colift.benchmark.paper.table_one import SubjectRow, TableOne
-from colift.benchmark.rendering.style import HUMAN, INK, ROBOT
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import legend, panels
+from colift.benchmark.rendering.style import DASHES, HUMAN, INK, ROBOT
 
 CELL: Final = 0.12
 """Largest relative deviation of a cell of Table I."""
@@ -23,6 +25,9 @@ FEWEST: Final = 8
 
 BASELINE: Final = 0.7
 """Largest deviation of the human-human baseline [mm]."""
+
+BESIDE: Final = 0.13
+"""Distance of a point from the middle of its subject, where the distance of subjects is 1."""
 
 
 def table_claims(table: TableOne) -> list[Claim]:
@@ -124,7 +129,7 @@ def _human_human(table: TableOne) -> Claim:
     better = high < blend.ci95[0] and blend.ci95[1] < reactive.ci95[0]
     near = abs(human_human.mean - human_human.paper) <= BASELINE
     return Claim(
-        claim="Two humans do better than a human with the robot, with prediction or without.",
+        claim="Two people do better than a human with the robot, with prediction or without.",
         figure="figure 9, Table I",
         paper=f"{human_human.paper:.3f} mm (one pair of people, no standard deviation given)",
         criterion=f"baseline below blend below reactive with intervals apart, and "
@@ -145,32 +150,31 @@ def _human_human(table: TableOne) -> Claim:
     )
 
 
-def table_exhibit(table: TableOne) -> Exhibit:
+def table_exhibit(table: TableOne, layout: Layout) -> Exhibit:
     """Return the errors of Table I as points, ours with their 95 % intervals."""
     rows = table.rows
-    figure, ((axes,),) = panels(["RMSE [mm]"], [3.0], x_label="subject")
+    figure, ((axes,),) = panels(layout, ["RMSE [mm]"], [3.0], x_label="subject")
     for index, row in enumerate(rows):
-        for cell, colour, name, shift in (
-            (row.reactive, ROBOT, "without prediction", -0.12),
-            (row.blend, HUMAN, "with prediction", 0.12),
+        for cell, colour, marker, name, shift in (
+            (row.reactive, ROBOT, "o", "without prediction", -BESIDE),
+            (row.blend, HUMAN, "D", "with prediction", BESIDE),
         ):
             low, high = cell.ci95
             first = index == 0
             axes.plot([index + shift] * 2, [low, high], color=colour, lw=2.2)
             axes.plot(
-                index + shift, cell.mean, "o", color=colour, ms=7, label=name if first else None
+                index + shift, cell.mean, marker, color=colour, ms=6, label=name if first else None
             )
-            axes.plot(
-                index + shift,
+            axes.hlines(
                 cell.paper,
-                "_",
+                index + shift - BESIDE,
+                index + shift + BESIDE,
                 color=INK,
-                ms=22,
-                mew=1.6,
-                label="the paper" if first and shift > 0 else None,
+                lw=1.6,
+                label="the paper" if first and shift > 0 else "_",
             )
     level = table.human_human.mean
-    axes.axhline(level, color="#009E73", lw=1.4, ls=(0, (4, 3)), label="two humans")
+    axes.axhline(level, color="#009E73", lw=1.4, ls=DASHES, label="two people")
     axes.set_xticks(range(len(rows)), [row.subject for row in rows])
     axes.set_ylim(bottom=0)
     legend(axes)
@@ -178,7 +182,7 @@ def table_exhibit(table: TableOne) -> Exhibit:
         name="table-1",
         title="Table I as a picture",
         caption="Mean error of each subject without and with prediction, with 95 % intervals; the "
-        "dashes are the paper's means, the broken line is our human-human baseline.",
+        "dashes are the paper's means, the broken line is two people, here.",
         figure=figure,
         columns={
             "subject": [row.subject for row in rows],

@@ -3,7 +3,7 @@
 import dataclasses
 import itertools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -11,12 +11,14 @@ import numpy as np
 from colift.agents.control.predictor import PredictorParameters
 from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.execution.runner import Run
-from colift.benchmark.paper.evidence import TimingSetting
-from colift.benchmark.paper.exhibits import CONFIDENCE, PREDICTION, Claim, Exhibit, panels
+from colift.benchmark.paper.evidence import Evidence, TimingSetting
+from colift.benchmark.paper.exhibits import Claim, Exhibit
 from colift.benchmark.paper.refilter import refilter
 from colift.benchmark.paper.table_one import errors
 from colift.benchmark.paper.watched import SampledLift, rms, sampled_lifts
-from colift.benchmark.rendering.style import FAINT, INK
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.panels import panels
+from colift.benchmark.rendering.style import CONFIDENCE, FAINT, PREDICTION
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
@@ -47,9 +49,9 @@ class TimingResult:
     """The same, offline, with the process noise of :func:`retuned`."""
 
 
-def timing_results(runs: Mapping[TimingSetting, Run]) -> list[TimingResult]:
+def timing_results(evidence: Evidence) -> list[TimingResult]:
     """Return the errors of each setting, in the order of the runs."""
-    return [_result(timing, run) for timing, run in runs.items()]
+    return [_result(*each, evidence.parameters) for each in evidence.timing.items()]
 
 
 def at_papers_latency(results: Sequence[TimingResult], policy: str) -> list[TimingResult]:
@@ -59,16 +61,15 @@ def at_papers_latency(results: Sequence[TimingResult], policy: str) -> list[Timi
     return sorted(some, key=lambda result: result.control_period_s)
 
 
-def _result(timing: TimingSetting, run: Run) -> TimingResult:
+def _result(timing: TimingSetting, run: Run, parameters: PredictorParameters) -> TimingResult:
     one_step = one_step_ms = ahead = ahead_retuned = math.nan
     if timing.policy == "blend":
-        lifts = sampled_lifts(run)
+        lifts = sampled_lifts(run, parameters)
         speed = rms(np.concatenate([lift.speed[_moving(lift)] for lift in lifts]))
         one_step = _pooled(lifts, lambda lift: lift.errors)
         one_step_ms = one_step / speed
         ahead = _pooled(lifts, ahead_errors)
-        other = retuned(timing.control_period)
-        ahead_retuned = _pooled(lifts, lambda lift: ahead_errors(lift, other))
+        ahead_retuned = _pooled(lifts, lambda lift: ahead_errors(lift, retuned(lift)))
     return TimingResult(
         policy=timing.policy,
         control_period_s=timing.control_period,
@@ -81,17 +82,17 @@ def _result(timing: TimingSetting, run: Run) -> TimingResult:
     )
 
 
-def retuned(period: float) -> PredictorParameters:
-    """Return the predictor's parameters with the process noise of ``HORIZON``, for a period [s].
+def retuned(lift: SampledLift) -> PredictorParameters:
+    """Return the predictor's parameters with the process noise of ``HORIZON``, for a lift's period.
 
     The filter assumes a jerk that is constant over a step, with variance q, whatever the step. Over
     a second such a jerk changes the acceleration by a variance of q times the period: with the same
     q, a filter trusts its model more at a shorter step. Here q times the period is kept constant.
     """
-    shipped = PredictorParameters()
-    noise = shipped.motion.process_noise * HORIZON / period
+    motion = lift.parameters.motion
+    noise = motion.process_noise * HORIZON / lift.scenario.control_period
     return dataclasses.replace(
-        shipped, motion=dataclasses.replace(shipped.motion, process_noise=noise)
+        lift.parameters, motion=dataclasses.replace(motion, process_noise=noise)
     )
 
 
@@ -109,10 +110,10 @@ def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = Non
 
     The filter's prediction one step ahead is extrapolated at constant acceleration (eq. 5) to the
     horizon. Each error is in the step whose sample the prediction is compared with; steps before
-    the first such sample have NaN. Computed offline, with the shipped parameters by default.
+    the first such sample have NaN. Computed offline, with the parameters of the lift by default.
     """
     period = lift.scenario.control_period
-    refiltered = refilter(lift.samples, period, parameters)
+    refiltered = refilter(lift.samples, period, parameters or lift.parameters)
     further = HORIZON - period
     expected = (
         refiltered.height + refiltered.velocity * further + refiltered.acceleration * further**2 / 2
@@ -124,9 +125,9 @@ def ahead_errors(lift: SampledLift, parameters: PredictorParameters | None = Non
     return wrong
 
 
-def timing_claims(runs: Mapping[TimingSetting, Run]) -> list[Claim]:
+def timing_claims(evidence: Evidence) -> list[Claim]:
     """Return the claims about control period and latency."""
-    results = timing_results(runs)
+    results = timing_results(evidence)
     blends, reactives = (at_papers_latency(results, policy) for policy in ("blend", "reactive"))
     return [_next_sample(blends), _same_time(blends), _performs(blends, reactives)]
 
@@ -214,42 +215,46 @@ def _rising(results: Sequence[TimingResult], attribute: str) -> bool:
     return all(a < b for a, b in itertools.pairwise(values))
 
 
-BY_LATENCY: Final = ("#6BAED6", "#3787C0", "#105BA4", "#08306B")
-"""Colours of the latencies, from the shortest to the longest."""
+BY_LATENCY: Final = (("#6BAED6", "o"), ("#3787C0", "s"), ("#105BA4", "^"), ("#08306B", "D"))
+"""Colour and marker of the latencies, from the shortest to the longest."""
 
 COLUMNS: Final = ("policy", "control_period_s", "latency_s", "rmse_mm", "one_step_mm")
 COLUMNS_AHEAD: Final = ("one_step_ms", "ahead_mm", "ahead_retuned_mm")
 
 
-def timing_exhibit(results: Sequence[TimingResult]) -> Exhibit:
+def timing_exhibit(results: Sequence[TimingResult], layout: Layout) -> Exhibit:
     """Return errors over control period and latency."""
     figure, (row,) = panels(
-        ["error [mm]"], [3.0], columns=3, x_label="control period [ms]", share_x=False
+        layout, ["error [mm]"], [3.0], columns=3, x_label="control period [ms]", share_x=False
     )
     for axes, policy in ((row[0], "reactive"), (row[1], "blend")):
         some = [result for result in results if result.policy == policy]
         latencies = sorted({result.latency_s for result in some})
-        for latency, colour in zip(latencies, BY_LATENCY, strict=False):
+        for latency, look in zip(latencies, BY_LATENCY, strict=False):
             chosen = [result for result in some if result.latency_s == latency]
-            _line(axes, chosen, "rmse_mm", colour, f"{1000 * latency:.0f} ms old")
+            x, y = _line(axes, chosen, "rmse_mm", look)
+            if policy == "blend":
+                text = f"{1000 * latency:.0f} ms old"
+                axes.annotate(
+                    text, (x, y), (0, -5), textcoords="offset points", ha="right", va="top"
+                )
     blends = at_papers_latency(results, "blend")
-    _line(row[2], blends, "ahead_mm", PREDICTION, "100 ms ahead")
-    _line(row[2], blends, "ahead_retuned_mm", CONFIDENCE, "100 ms ahead, retuned")
-    _line(row[2], blends, "one_step_mm", FAINT, "one step ahead")
-    names = ("RMSE without prediction", "RMSE with prediction", "error of prediction")
+    _line(row[2], blends, "ahead_mm", (PREDICTION, "o"), "100 ms ahead")
+    _line(row[2], blends, "ahead_retuned_mm", (CONFIDENCE, "s"), "same, retuned")
+    _line(row[2], blends, "one_step_mm", (FAINT, "^"), "one step ahead")
+    names = ("RMSE\nwithout prediction", "RMSE\nwith prediction", "rms error\nof the prediction")
     for axes, name in zip(row, names, strict=True):
-        axes.set_title(name, fontsize=9, color=INK, loc="left")
+        axes.set_title(name)
         axes.set_ylim(bottom=0)
         axes.set_xticks(sorted({1000 * result.control_period_s for result in results}))
-    row[0].legend(fontsize=8, labelcolor=INK, loc="lower right", ncols=2, edgecolor="none")
-    row[2].legend(fontsize=8, labelcolor=INK, loc="upper right", edgecolor="none")
+    row[2].legend(loc="upper right")
     return Exhibit(
         name="timing",
         title="A faster robot, fresher samples",
-        caption="Mean RMSE over the control period, for samples of different age (the latency), "
-        "and the rms error of prediction while the human moves, at the latency of Table I: one "
-        "step ahead, and 100 ms ahead of the sample whatever the step. Retuned: with process noise "
-        "that is as much a second at every period.",
+        caption="Mean RMSE over the control period, for samples of different age (the "
+        "latency, named in the second panel), and the rms error of prediction while the human "
+        "moves, at the latency of Table I: one step ahead, and 100 ms ahead of the sample whatever "
+        "the step. Retuned: with process noise that is as much a second at every period.",
         figure=figure,
         columns={
             name: [getattr(result, name) for result in results]
@@ -259,15 +264,21 @@ def timing_exhibit(results: Sequence[TimingResult]) -> Exhibit:
 
 
 def _line(
-    axes: Axes, results: Sequence[TimingResult], attribute: str, colour: str, label: str
-) -> None:
+    axes: Axes,
+    results: Sequence[TimingResult],
+    attribute: str,
+    look: tuple[str, str],
+    label: str | None = None,
+) -> tuple[float, float]:
+    """Draw a line in a colour, with a marker, and return its last point."""
     points = sorted((1000 * r.control_period_s, getattr(r, attribute)) for r in results)
     axes.plot(
         [x for x, _ in points],
         [y for _, y in points],
-        color=colour,
-        marker="o",
+        color=look[0],
+        marker=look[1],
         ms=4,
         lw=1.8,
         label=label,
     )
+    return points[-1]

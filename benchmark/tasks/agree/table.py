@@ -2,8 +2,10 @@
 
 from typing import Final
 
+from colift.agents.agent import FRAME
 from colift.benchmark.episode.drawn import DrawnSeries
 from colift.benchmark.episode.metric import Metric, MetricWords, metric_table
+from colift.benchmark.tasks.agree.scores import STAY
 
 AGREE_METRICS: Final = metric_table(
     (
@@ -107,8 +109,8 @@ AGREE_METRICS: Final = metric_table(
         ),
     ),
     drawn=(
-        DrawnSeries(name="human_hurdle", label="human's hurdle", where="human"),
-        DrawnSeries(name="robot_hurdle", label="robot's hurdle"),
+        DrawnSeries(name="human_hurdle", label="human's hurdle", where="human", stay=STAY * FRAME),
+        DrawnSeries(name="robot_hurdle", label="robot's hurdle", stay=STAY * FRAME),
     ),
 )
 """One entry for each score of :meth:`.Agree.score`, in the same order."""

@@ -50,7 +50,7 @@ MANNERS: Final[Mapping[str, SteeringManner[float]]] = {
 
 
 PARTNER_MANNER: Final = SteeringManner(share=0.6, haste=1.8, lead=0.2, trust=0.3, wrist=0.5)
-"""The manner of the second person of the human-human baseline."""
+"""The manner of the second of two people."""
 
 
 def steering_manner(subject: Subject) -> SteeringManner[float]:

@@ -1,4 +1,4 @@
-"""The second person of the human-human baseline, who feels where the first wants the table."""
+"""The second of two people, who feels where the first wants the table."""
 
 import math
 from typing import Final

@@ -5,7 +5,8 @@ import pytest
 from colift.agents.agent import FRAME
 from colift.agents.humans import SUBJECTS, Recorded, Recording
 from colift.agents.humans.recorded import EASE, _retarget
-from colift.agents.humans.treatment import shape_of, treatment_of
+from colift.agents.humans.shape import shape_of
+from colift.agents.humans.treatment import treatment_of
 
 from .motion import lift
 
@@ -33,7 +34,7 @@ DIPPING = HEIGHTS - 0.1 * np.exp(-(((TIMES - 0.6) / 0.2) ** 2))
 )
 def test_scale_and_slow_down_are_those_of_the_played_lift(times, heights, inverted):
     made = recording(times, heights)
-    found, shape = treatment_of(made), shape_of(made)
+    found, shape = treatment_of(Recorded(recording=made)), shape_of(made)
     target = Recorded(recording=made).plan(SUBJECTS["S1"], 0).target
     assert found.inverted is inverted
     assert target.max() == pytest.approx(found.scale * shape.highest, abs=1e-4)
@@ -50,7 +51,7 @@ def test_scale_and_slow_down_are_those_of_the_played_lift(times, heights, invert
 
 
 def test_the_numbers_are_those_of_the_samples():
-    found = treatment_of(recording(TIMES, HEIGHTS))
+    found = treatment_of(Recorded(recording=recording(TIMES, HEIGHTS)))
     assert found.rate_hz == pytest.approx(100.0)
     assert found.range_m == HEIGHTS.max() - HEIGHTS.min()
     assert found.plain() == {

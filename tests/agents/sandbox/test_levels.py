@@ -54,6 +54,28 @@ def test_without_namespaces_a_policy_leaves_marks_so_that_is_never_verified():
     assert "limits" not in levels.VERIFIABLE
 
 
+def test_the_levels_of_a_container_are_those_of_its_machine(tmp_path):
+    """Its files are layers, of which nothing can be read on condition that it is in memory."""
+    lower, upper, work, merged = (tmp_path / name for name in ("lower", "upper", "work", "merged"))
+    for each in (lower, upper, work, merged):
+        each.mkdir()
+    layers = f"lowerdir={lower},upperdir={upper},workdir={work}"
+    rights = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
+    mounted = f'mount -t overlay overlay -o {layers} {merged} && exec "$@"'
+    within = ["unshare", "--mount", *rights, "sh", "-c", mounted, "sh"]
+    if subprocess.run([*within, "true"], capture_output=True).returncode:
+        pytest.skip("needs layers of files: overlayfs")
+    ask = "from colift.agents.sandbox.host.levels import choose; print(choose().level)"
+    done = subprocess.run(
+        [*within, sys.executable, "-c", ask],
+        capture_output=True,
+        text=True,
+        timeout=240,
+        env=os.environ | {"TMPDIR": str(merged)},
+    )
+    assert done.stdout == f"{levels.choose().level}\n", done.stderr
+
+
 @pytest.mark.usefixtures("_unknown", "_without_namespaces")
 def test_where_namespaces_cannot_be_had_no_level_is_verifiable_and_each_says_why():
     told = "bubblewrap does not work here: this machine forbids user namespaces.*nor does landlock"

@@ -14,6 +14,7 @@ from colift.benchmark.bundle.content import real_time
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.provenance import fingerprint
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.results.baselines import HUMAN_HUMAN, play_baselines
 from colift.benchmark.statistics import MeanWithMissing
 from colift.benchmark.suites.suite import make_suite
 
@@ -177,3 +178,14 @@ def test_what_a_hostile_policy_says_is_kept_where_it_does_no_harm(hostile_run, h
     assert all(log.startswith("line one") for log in logs.values())
     with np.load(hostile / "traces.npz", allow_pickle=False) as traces:
         assert [name for name in traces if name.startswith("internals")] == ["internals/guess"]
+
+
+def test_the_error_of_two_people_on_each_lift_is_written_and_read(run, bundle, tmp_path):
+    human_human = play_baselines(run.suite)[HUMAN_HUMAN]
+    content = results(run, {HUMAN_HUMAN: human_human}).plain()
+    write_bundle(tmp_path / "new", run, content, human_human=human_human)
+    with (tmp_path / "new" / "episodes.csv").open(newline="") as file:
+        told = [float(row["human_human_rmse_mm"]) for row in csv.DictReader(file)]
+    assert told == [*human_human.rmse_mm]
+    assert read_bundle(tmp_path / "new").human_human_mm == tuple(told)
+    assert read_bundle(bundle).human_human_mm is None

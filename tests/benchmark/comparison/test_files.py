@@ -16,7 +16,10 @@ from colift.benchmark.comparison.files import (
     comparison_json,
     write_comparison,
 )
+from colift.benchmark.rendering.layout import LAYOUTS, Layout
 from PIL import Image
+
+from tests.printed import check_figure
 
 
 @pytest.fixture(scope="module")
@@ -27,12 +30,9 @@ def folder(comparison: Comparison, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 def test_the_files_are_those_named(folder: Path) -> None:
-    assert sorted(path.name for path in folder.iterdir()) == [
-        "compare.csv",
-        "compare.html",
-        "compare.json",
-        "compare.png",
-    ]
+    figures = {f"{name}.{kind}" for name in ("compare", "ranks") for kind in ("png", "svg", "pdf")}
+    texts = {f"compare.{kind}" for kind in ("csv", "html", "json", "tex", "bib")}
+    assert {path.name for path in folder.iterdir()} == figures | texts
 
 
 def test_equal_comparisons_give_equal_files(
@@ -102,7 +102,7 @@ def test_the_page_is_whole_and_needs_nothing_else(folder: Path, comparison: Comp
     assert all(target.startswith("#") for target in page.targets)
     assert "url(http" not in source
     assert "<script" not in source
-    for told in ("leader", "human-human baseline", "By behaviour", "By subject", "jerky", "P2"):
+    for told in ("leader", "two people", "By behaviour", "By subject", "jerky", "P2"):
         assert told in page.text
     assert verdict(comparison) in page.text
     assert failures(comparison)[0] in page.text
@@ -119,6 +119,14 @@ def test_the_page_has_colours_for_the_dark(folder: Path) -> None:
     assert not re.findall(r"""(?:fill|stroke)(?:: |=")#\w+""", drawn)
 
 
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_the_figures_are_for_print(comparison: Comparison, layout: Layout, tmp_path: Path) -> None:
+    write_comparison(tmp_path, comparison, layout)
+    names = {"leader", "follower", "twin", "two", "people"}
+    assert names <= check_figure(tmp_path / "compare", layout)
+    assert names | {"1", "3"} <= check_figure(tmp_path / "ranks", layout)
+
+
 def test_the_picture_fits_a_readme(folder: Path) -> None:
     with Image.open(folder / "compare.png") as image:
         assert image.width >= 1000
@@ -127,7 +135,7 @@ def test_the_picture_fits_a_readme(folder: Path) -> None:
 
 def test_the_words_say_who_wins_and_who_failed(comparison: Comparison) -> None:
     assert verdict(comparison) == (
-        "leader is the most level: 11.5 mm, 1.27 times the human-human baseline's error on the "
+        "leader is the most level: 11.5 mm, 1.27 times the error of two people on the "
         "same lift (mean 9.5 mm). "
         "twin cannot be distinguished from it."
     )

@@ -1,6 +1,7 @@
 """Comparisons that are played, on the quick suite."""
 
 import dataclasses
+from pathlib import Path
 
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
@@ -10,6 +11,7 @@ from colift.benchmark.comparison.files import comparison_json
 from colift.benchmark.comparison.html import html_page
 from colift.benchmark.comparison.paired_results import PairedResults
 from colift.benchmark.comparison.playing import episodes_to_play, play_policies
+from colift.benchmark.execution.journal import open_journal
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN_LABEL,
@@ -91,3 +93,34 @@ def test_an_interrupted_comparison_gives_no_results(quick: Suite) -> None:
 
     with pytest.raises(KeyboardInterrupt):
         play_policies({"copy": PolicySpec(text="copy")}, quick, progress=stop)
+
+
+def test_a_comparison_goes_on_where_it_was_interrupted(
+    quick: Suite, played: PairedResults, tmp_path: Path
+) -> None:
+    policies = {name: PolicySpec(text=name) for name in ("copy", "hold")}
+    left = iter(range(quick.size + 4))  # All lifts of the first, and some of the second.
+
+    def stop(episodes: int) -> None:
+        if next(left, None) is None:
+            raise KeyboardInterrupt
+
+    with (
+        pytest.raises(KeyboardInterrupt),
+        open_journal(tmp_path / "made", {}, resume=False) as journal,
+    ):
+        play_policies(policies, quick, progress=stop, journal=journal)
+    counted: list[int] = []
+    with open_journal(tmp_path / "made", {}, resume=True) as journal:
+        kept = len(journal.done)
+        found = play_policies(policies, quick, progress=counted.append, journal=journal)
+    assert quick.size < kept < 2 * quick.size
+    assert counted == [quick.size, kept - quick.size, *[1] * (2 * quick.size - kept)]
+    assert timeless(found) == timeless(played)
+
+
+def timeless(found: PairedResults) -> dict[str, object]:
+    content = comparison_json(compare(found))
+    for policy in content["policies"]:
+        del policy["step_ms"]
+    return content

@@ -38,7 +38,10 @@ APPEARANCE = ("colift.robots.nao.shapes",)
 """What a robot looks like: no lift depends on it, so that no number there changes a digest."""
 ACCEPTANCE = tuple(
     f"colift.agents.humans.{name}"
-    for name in ("artefacts", "copies", "foreign_files", "goals", "recording_file", "treatment")
+    for name in (
+        *("artefacts", "beside", "copies", "foreign_files", "goals", "recording_file"),
+        *("recording_notes", "treatment", "trial", "trial_file"),
+    )
 )
 """What refuses or describes recordings and live lifts: those that play do not depend on it."""
 NOT_IN_SUITES = ("oracle", "rehearsal", "suites", "telling")

@@ -12,9 +12,14 @@ from colift.benchmark.export.proving import proved_lifts
 
 from .conftest import SUITE
 
-mlcroissant = pytest.importorskip("mlcroissant")
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")  # Of its reader of RDF.
 WORDS = CardWords(about="Four lifts.", people="simulated", shows=("Little.",), licence="MIT")
+
+
+@pytest.fixture(scope="module")
+def mlcroissant():
+    """The reader, imported where it is used: it takes every process 80 MB."""
+    return pytest.importorskip("mlcroissant")
 
 
 @pytest.fixture(params=["lerobot", "minari"])
@@ -25,7 +30,7 @@ def exported(request, bundle, boxes, provenance, tmp_path):
     return request.param, tmp_path / "out"
 
 
-def test_it_is_valid_and_names_every_other_file_with_its_hash(exported):
+def test_it_is_valid_and_names_every_other_file_with_its_hash(exported, mlcroissant):
     _, folder = exported
     read = mlcroissant.Dataset(jsonld=str(folder / CROISSANT))
     assert read.metadata.ctx.issues.errors == set()
@@ -38,7 +43,7 @@ def test_it_is_valid_and_names_every_other_file_with_its_hash(exported):
     }
 
 
-def test_the_records_of_a_lerobot_set_are_its_steps(exported):
+def test_the_records_of_a_lerobot_set_are_its_steps(exported, mlcroissant):
     form, folder = exported
     described = json.loads((folder / CROISSANT).read_text())
     if form == "minari":

@@ -19,9 +19,10 @@ def test_equal_content_is_no_change():
     assert file_change("a.txt", None, b"1\n") == "a.txt: new"
 
 
-def test_lines_that_differ_are_shown():
-    change = file_change("a.txt", b"one\ntwo\nthree\n", b"one\n2\nthree\n")
-    assert change == "a.txt: 2 lines differ\n  -two\n  +2"
+@pytest.mark.parametrize("name", ["a.txt", "a.svg"])
+def test_lines_that_differ_are_shown(name):
+    change = file_change(name, b"one\ntwo\nthree\n", b"one\n2\nthree\n")
+    assert change == f"{name}: 2 lines differ\n  -two\n  +2"
 
 
 def test_a_long_change_is_cut():

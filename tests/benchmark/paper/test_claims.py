@@ -77,7 +77,7 @@ def test_lifts_that_are_too_few_for_any_small_p_are_told(made, lifts):
 
 
 def test_timing_claims_tell_one_value_a_period(made):
-    for claim in timing_claims(made.evidence.timing):
+    for claim in timing_claims(made.evidence):
         assert "50 ms: " in claim.measured
         assert "100 ms: " in claim.measured
 

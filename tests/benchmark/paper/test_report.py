@@ -36,7 +36,7 @@ def test_progress_adds_up_to_what_was_announced(made):
 
 
 def test_every_file_is_there(made):
-    wanted = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "csv")}
+    wanted = {f"{name}.{kind}" for name in FIGURES for kind in ("png", "svg", "pdf", "csv")}
     wanted |= {"report.html", "report.md", "claims.json"}
     assert {path.name for path in made.folder.iterdir()} == wanted
 

@@ -54,12 +54,13 @@ def test_the_references_stand_in_the_right_order():
         (("ball_smooth",), "ball_learned", 1.0),
     ],
 )
-def test_each_task_with_touch_has_a_reference_below_its_policies(
+def test_each_task_with_touch_has_a_reference_that_no_policy_of_its_passes(
     behaviours, policy, most, monkeypatch
 ):
     """The oracle of two hurdles tries a quarter of its bumps, which is less than it can.
 
     ``agree_learned`` is a network like its reference: on all lifts of the suite they are equal.
+    ``ball_learned`` and ``pose_learned`` are their references.
     """
     monkeypatch.setattr(rehearsal, "BUMP_SPACING", 4 * rehearsal.BUMP_SPACING)
     task = policy.partition("_")[0].replace("pose", "intent")
@@ -69,7 +70,7 @@ def test_each_task_with_touch_has_a_reference_below_its_policies(
         {policy: PolicySpec(text=policy)}, suite, references=suite_references(suite)
     )
     reference, error = paired.references[BEST_KNOWN].mean, paired.policies[0].scores.mean
-    assert paired.references["oracle"].mean < reference < most * error
+    assert paired.references["oracle"].mean < reference <= most * error
 
 
 def test_a_suite_of_another_timing_has_the_oracle_alone():

@@ -11,10 +11,14 @@ from colift.benchmark.references.sweep import (
     sweep,
     timings,
 )
-from colift.benchmark.references.sweep_picture import sweep_figure, sweep_json
+from colift.benchmark.references.sweep_figure import sweep_figure, sweep_json
+from colift.benchmark.rendering.figures import drawn_for, write_all
+from colift.benchmark.rendering.layout import LAYOUTS, PAGE
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.training.data import Timing
+
+from tests.printed import check_figure
 
 SUITE = Suite(name="one", scenarios=(make_scenario("smooth", "draw-200004"),), seeds=(FIRST_SEED,))
 
@@ -44,20 +48,30 @@ def test_everyone_meets_the_same_lifts_at_every_timing(monkeypatch):
     assert by_name["oracle"] < by_name["blend"] < by_name["reactive"]
 
 
-def test_the_picture_has_a_line_for_each_in_both_panels():
-    swept = [
-        Swept(policy=name, latency=t.latency, control_period=t.control_period, rmse_mm=i, sparc=-2)
-        for i, name in enumerate(NAMES)
-        for t in timings()
-    ]
-    figure = sweep_figure(swept, 9.0, "Title")
+SWEPT = [
+    Swept(policy=name, latency=t.latency, control_period=t.control_period, rmse_mm=i, sparc=-2)
+    for i, name in enumerate(NAMES)
+    for t in timings()
+]
+
+
+@pytest.mark.parametrize("layout", LAYOUTS.values(), ids=LAYOUTS)
+def test_the_figure_is_for_print(layout, tmp_path):
+    with drawn_for(layout):
+        figure = sweep_figure(SWEPT, 9.0, layout)
+    write_all(tmp_path, "sweep", figure, "t")
+    assert {*NAMES, "two", "people", "latency"} <= check_figure(tmp_path / "sweep", layout)
+
+
+def test_the_figure_has_a_line_for_each_in_both_panels():
+    figure = sweep_figure(SWEPT, 9.0, PAGE)
     for axes, count in zip(figure.axes, (5, 5), strict=True):
         lines = {line.get_label(): line for line in axes.get_lines()}
-        assert set(lines) == {"human-human baseline", *NAMES}
+        assert set(lines) == {"two people", *NAMES}
         for i, name in enumerate(NAMES):
             assert list(lines[name].get_ydata()) == [i] * count
         assert list(lines["oracle"].get_xdata()) == sorted(lines["oracle"].get_xdata())
     assert list(figure.axes[0].get_lines()[1].get_xdata()) == [0, 50, 100, 150, 200]
-    content = json.loads(sweep_json(swept, 9.0))
+    content = json.loads(sweep_json(SWEPT, 9.0))
     assert content["human_human_rmse_mm"] == 9.0
-    assert len(content["swept"]) == len(swept)
+    assert len(content["swept"]) == len(SWEPT)

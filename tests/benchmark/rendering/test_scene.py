@@ -72,9 +72,9 @@ def test_everybody_is_seen_whole(scene: Scene, size: tuple[int, int]) -> None:
 
 def test_a_ball_is_seen_where_it_lies() -> None:
     scene = Scene("nao", ball=True)
-    scene.roll(0.0, 0.3)
+    scene.table.roll(0.0, 0.3)
     middle = scene.picture(320, 200)
-    scene.roll(0.2, 0.3)
+    scene.table.roll(0.2, 0.3)
     towards_robot = scene.picture(320, 200)
     scene.close()
     changed = np.argwhere((middle != towards_robot).any(axis=-1))

@@ -39,6 +39,29 @@ def test_colours_of_a_gif_do_not_flicker_and_are_true(tmp_path: Path) -> None:
         assert np.abs(picture - original).max() < 12
 
 
+@pytest.mark.parametrize(
+    ("name", "plays", "loop"),
+    [("a.gif", 0, 0), ("a.gif", 1, None), ("a.gif", 3, 2), ("a.webp", 0, 0), ("a.webp", 1, 1)],
+)
+def test_a_film_says_how_often_it_plays(
+    tmp_path: Path, name: str, plays: int, loop: int | None
+) -> None:
+    """A GIF tells the number of repetitions, or nothing; a WebP that of all."""
+    write(tmp_path / name, pictures(3), 12.5, plays=plays)
+    with Image.open(tmp_path / name) as film:
+        assert film.info.get("loop") == loop
+
+
+def test_webp_opens_with_all_its_pictures_in_their_colours(tmp_path: Path) -> None:
+    drawn = pictures(9)
+    write(tmp_path / "a.webp", drawn, 12.5)
+    with Image.open(tmp_path / "a.webp") as film:
+        frames = [(f.convert("RGB"), f.info["duration"]) for f in ImageSequence.Iterator(film)]
+    assert [time for _, time in frames] == [80] * 9
+    for (seen, _), picture in zip(frames, drawn, strict=True):
+        assert np.abs(np.asarray(seen, dtype=int) - picture).mean() < 6
+
+
 def test_mp4_opens_with_all_its_pictures(tmp_path: Path) -> None:
     ffmpeg = pytest.importorskip("imageio_ffmpeg")
     write(tmp_path / "a.mp4", pictures(9), 12.5)
@@ -65,7 +88,9 @@ def test_png_is_the_picture(tmp_path: Path) -> None:
         assert np.array_equal(np.asarray(seen), picture)
 
 
-@pytest.mark.parametrize(("name", "count"), [("a.gif", 0), ("a.png", 0), ("a.png", 2)])
+@pytest.mark.parametrize(
+    ("name", "count"), [("a.gif", 0), ("a.webp", 0), ("a.png", 0), ("a.png", 2)]
+)
 def test_wrong_number_of_pictures_is_refused(tmp_path: Path, name: str, count: int) -> None:
     with pytest.raises(ValueError, match="picture"):
         write(tmp_path / name, pictures(count), 10)
@@ -74,7 +99,7 @@ def test_wrong_number_of_pictures_is_refused(tmp_path: Path, name: str, count: i
 
 @pytest.mark.parametrize("name", ["a.avi", "a", ".gif", "a.gif.txt"])
 def test_unknown_suffix_lists_the_known(tmp_path: Path, name: str) -> None:
-    with pytest.raises(InputError, match=r"\.gif, \.mp4, \.png"):
+    with pytest.raises(InputError, match=r"\.gif, \.webp, \.mp4, \.png"):
         write(tmp_path / name, pictures(1), 10)
 
 

@@ -8,11 +8,11 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import read_bundle, results, write_bundle
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
-from colift.benchmark.results.baselines import play_baselines, shipped_baselines
+from colift.benchmark.results.baselines import HUMAN_HUMAN, play_baselines, shipped_baselines
 from colift.benchmark.suites.suite import make_suite, recorded_suite
 from colift.benchmark.verification import verify
 
-from .forging import SUITE, edit_arrays, edit_json, mend, refused
+from .forging import SUITE, edit_arrays, edit_json, edit_rows, mend, refused
 
 
 class TestTrue:
@@ -114,6 +114,23 @@ class TestReferences:
         mend(folder)
         message = refused(folder, file="results.json")
         assert message.startswith("baselines.human_human.rmse_mm.mean says")
+
+    def test_those_of_single_lifts_are_compared(self, tmp_path):
+        suite = dataclasses.replace(SUITE, name="one", scenarios=SUITE.scenarios[:1])
+        run, folder = run_suite(PolicySpec(text="copy"), suite), tmp_path / "copy"
+        human_human = play_baselines(suite)[HUMAN_HUMAN]
+        content = results(run, {HUMAN_HUMAN: human_human}).plain()
+        write_bundle(folder, run, content, human_human=human_human)
+        assert verify(folder).ok
+        for value, place, said in (
+            ("55.0", {"file": "episodes.csv", "episode": "smooth/S1 seed 4"}, "rmse_mm says 55.0"),
+            ("", {"file": "episodes.csv, row 2"}, "human_human_rmse_mm is missing"),
+        ):
+            edit_rows(folder, lambda rows, value=value: rows[1].update(human_human_rmse_mm=value))
+            mend(folder)
+            assert said in refused(folder, **place)
+        write_bundle(folder, run, results(run, {}).plain(), human_human=human_human)
+        assert "results.json has no human_human" in refused(folder, file="episodes.csv")
 
     def test_unknown_ones_are_refused(self, bundle):
         edit_json(bundle, "results.json", lambda r: r["baselines"].update(rival={}))

@@ -47,6 +47,22 @@ def test_a_submitter_needs_a_name(tokens, name):
         tokens.add(name)
 
 
+def test_a_course_gets_its_tokens_together_or_not_at_all(tokens):
+    made = tokens.add_all(["ada", "grace"])
+    assert {tokens.submitter(token): name for name, token in made.items()} == {
+        "ada": "ada",
+        "grace": "grace",
+    }
+    for names, told in (
+        (["emmy", "Jörg Müller"], "'Jörg Müller' must be letters A to Z"),
+        (["emmy", "ada"], "ada has a token; revoke it first"),
+        (["emmy", "emmy"], "emmy is named twice"),
+    ):
+        with pytest.raises(InputError, match=told):
+            tokens.add_all(names)
+    assert [each.name for each in tokens.all()] == ["ada", "grace"]
+
+
 def test_one_has_one_token_at_a_time(tokens):
     tokens.add("ada")
     with pytest.raises(InputError, match="ada has a token; revoke it first"):

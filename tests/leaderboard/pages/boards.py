@@ -81,7 +81,7 @@ def _adopted(
     hidden = run_suite(policy, season.hidden)
     baselines = shipped_baselines(season.suite) or play_baselines(season.suite)
     content = results(public, baselines)
-    write_bundle(bundle, public, content.plain())
+    write_bundle(bundle, public, content.plain(), human_human=baselines[HUMAN_HUMAN])
     row = BoardRow(
         season=season.name,
         commitment=season.commitment,

@@ -3,6 +3,7 @@
 import csv
 import io
 from dataclasses import replace
+from statistics import fmean
 
 import pytest
 from colift.benchmark.statistics import Units, paired_difference
@@ -43,10 +44,14 @@ def test_ticked_policies_are_compared_lift_by_lift(page, front, played, folder):
     units = Units.people((lift.behaviour, lift.subject) for lift in runs["copy"])
     errors = [[lift.rmse_mm for lift in runs[name]] for name in (first, second)]
     mean = paired_difference(*errors, units).mean
-    shown = pair.locator("td").first.text_content().replace("\N{MINUS SIGN}", "-")
+    shown = pair.locator("td b").first.text_content().replace("\N{MINUS SIGN}", "-")
     assert abs(float(shown) - mean) < 0.006
-    expect(page.locator("table.compared tbody").first.locator("tr[data-p]:visible")).to_have_count(
-        2
+    expect(page.locator(".dots .series:visible")).to_have_count(2)
+    page.get_by_text("All numbers", exact=True).click()
+    whole = page.locator("table.compared tbody tr").first.locator("td[data-p]:visible")
+    means = [fmean(lift.rmse_mm for lift in runs[name]) for name in ("copy", "blend")]
+    assert [float(text) for text in whole.locator("b").all_text_contents()] == pytest.approx(
+        sorted(means), abs=0.06
     )
 
 
@@ -81,7 +86,7 @@ def test_each_lift_is_drawn_and_can_be_had_as_csv(page, front, played, folder):
     board.close()
     page.goto(front)
     page.get_by_role("link", name="Compare", exact=True).click()
-    expect(page.locator("#scatter circle.lift title")).to_have_count(12)
+    expect(page.locator("#scatter use.lift title")).to_have_count(12)
     runs = lifts_of(folder, played)
     better = sum(
         a.rmse_mm < b.rmse_mm for a, b in zip(*(runs[name] for name in names), strict=True)
@@ -163,3 +168,47 @@ def test_nonsense_in_the_address_is_left_out(page, url, site):
     for address in (f"{url}/seasons/2026/compare", f"{site}/compare-2026.html"):
         page.goto(f"{address}?p=<script>&p=1'--&p={'f' * 64}")
         expect(page.get_by_text("Choose at least two policies")).to_be_visible()
+
+
+def series(page):
+    """Return colour, middle height and marks of each policy that is drawn."""
+    return page.locator(".dots .series").evaluate_all(
+        "all => all.filter((each) => !each.hasAttribute('hidden')).map((each) => ["
+        "  getComputedStyle(each.querySelector('use')).fill,"
+        "  each.querySelector('use').getAttribute('href'),"
+        "  each.getBoundingClientRect().top,"
+        "])"
+    )
+
+
+def test_the_dots_of_each_policy_have_a_colour_a_shape_and_a_place_of_their_own(page, front):
+    page.goto(front)
+    for name in ("copy", "blend", "hold"):
+        page.get_by_label(f"Compare {name}").check()
+    page.locator("#compare button").click()
+    expect(page.locator("table.pairs tbody tr:visible")).to_have_count(3)
+    drawn = series(page)
+    assert len(drawn) == 3
+    assert [len({each[i] for each in drawn}) for i in range(3)] == [3, 3, 3]
+    picture = page.get_by_role("img", name="RMSE in mm with its 95 % interval, part by part")
+    expect(picture).to_be_visible()
+    for mark in picture.locator("use").all():
+        assert mark.locator("title").count() == 1
+
+
+def test_a_dot_is_where_the_scale_says(page, url, played, folder):
+    page.goto(f"{url}/seasons/2026/compare?p={digest('copy')}&p={digest('blend')}")
+    plot = page.locator("svg.dots").bounding_box()
+    ticks = page.locator(".dots text[text-anchor=middle]")
+    top = float(ticks.last.text_content().removesuffix(" mm"))
+    runs = lifts_of(folder, played)
+    first = page.locator(f".series[data-p='{digest('copy')}'] use").first.bounding_box()
+    shown = top * (first["x"] + first["width"] / 2 - plot["x"]) / plot["width"]
+    assert shown == pytest.approx(fmean(lift.rmse_mm for lift in runs["copy"]), abs=0.02 * top)
+
+
+def test_markers_of_the_key_are_those_of_the_picture(page, front):
+    page.goto(front)
+    page.get_by_role("link", name="Compare", exact=True).click()
+    keys = page.locator(".key li[data-p]:visible use")
+    assert [each.get_attribute("href") for each in keys.all()] == [each[1] for each in series(page)]

@@ -41,7 +41,7 @@ def test_the_worst_lift_of_each_behaviour_leads_to_its_replay(policy, played):
     worst = page.get_by_role("region", name="Its worst lifts")
     expect(worst.get_by_role("listitem")).to_have_count(4)
     shown = worst.get_by_role("listitem").filter(has_text="jerky")
-    expect(shown).to_contain_text(f"{jerky:.1f} mm")
+    expect(shown).to_contain_text(f"{jerky:.1f} mm, two people ")
     seed = re.search(r"seed (\d+)", shown.text_content())[1]
     shown.get_by_role("link").click()
     expect(page.locator(".replay-about")).to_contain_text(f"seed {seed}")

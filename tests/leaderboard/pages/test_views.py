@@ -6,22 +6,23 @@ import shutil
 import pytest
 from colift.benchmark.bundle.files import EPISODES, RESULTS
 from colift.benchmark.comparison.scatter.scene import NARROW, WIDE
+from colift.benchmark.rendering.axis import make_axis
+from colift.benchmark.rendering.formats import interval, number, signed
+from colift.benchmark.results.parts import Part
 from colift.benchmark.statistics import Estimate, MeanWithMissing
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.decisions import Decisions
 from colift.leaderboard.core.standings import UnrankedScores
 from colift.leaderboard.database.queries import record_entry
-from colift.leaderboard.pages.formats import interval, number, p_text, signed, tex
+from colift.leaderboard.pages.formats import p_text, tex
 from colift.leaderboard.pages.links import Links
 from colift.leaderboard.pages.rendering import render_page
 from colift.leaderboard.views.asked import CHOSEN
-from colift.leaderboard.views.axis import make_axis
 from colift.leaderboard.views.behaviour import behaviours
 from colift.leaderboard.views.board import board_page
 from colift.leaderboard.views.compare import compare_page
 from colift.leaderboard.views.exports import standings_csv
 from colift.leaderboard.views.lifts import (
-    Part,
     part_estimate,
     public_lifts,
     stratum_scores,
@@ -93,7 +94,7 @@ def test_a_policy_is_shown_part_by_part_beside_two_people_and_blend(shown):
     assert parts[0].rmse_mm.mean == pytest.approx(public.rmse_mm.mean)
     assert parts[0].rmse_mm.ci95 == pytest.approx(public.rmse_mm.ci95)
     for mine, theirs in zip(parts, blend["parts"], strict=True):
-        assert mine.blend_mm == pytest.approx(theirs.rmse_mm.mean)
+        assert mine.other_mm == pytest.approx(theirs.rmse_mm.mean)
     assert parts[0].ratio == pytest.approx(public.vs_human.mean)
     assert [entry.season for entry in view["history"]] == ["2026", "2025"]
 

@@ -6,6 +6,7 @@ from datetime import UTC, datetime
 import pytest
 from colift.benchmark.suites.suite import make_suite
 from colift.leaderboard.core.board import Board
+from colift.leaderboard.practice.season import SUITES
 from colift.leaderboard.practice.season_import import PlayedSeason, open_with_practice
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry
 
@@ -68,6 +69,19 @@ def test_a_new_board_shows_the_shipped_rows_and_takes_submissions_beside_them(op
     assert opened() == expected
     assert opened() == expected
     assert caplog.messages == []
+
+
+def test_a_new_board_ranks_the_shipped_suites(tmp_path, monkeypatch):
+    monkeypatch.delenv("COLIFT_DATABASE_URL", raising=False)
+    board = open_with_practice(tmp_path / "board")
+    suites = {each.suite: board.standings(each.name) for each in board.seasons()}
+    current = board.season_info().suite
+    board.close()
+    assert current == "robust-v1"
+    assert suites.keys() == {*SUITES}
+    for suite, rows in suites.items():
+        assert rows[0].rank == (0 if suite == "paper-v1" else 1)  # Its five people are too few.
+        assert all(each.ranked for each in rows)
 
 
 def test_a_board_that_is_there_is_left_as_it_is(tmp_path, opened):

@@ -16,6 +16,7 @@ from colift.leaderboard.evaluation.progress import BudgetError, Callbacks
 from colift.leaderboard.queue import NO_QUOTA, Queue, WorkerQueue
 from colift.leaderboard.queue import worker as module
 from colift.leaderboard.queue.worker import Worker
+from colift.leaderboard.replays.chosen import made_replays
 from colift.leaderboard.storage.store import Store
 from colift.leaderboard.views.job import STAGES
 
@@ -60,11 +61,13 @@ def test_a_submission_becomes_a_verified_row(board, queue, write_submission):
     done = Worker(WorkerQueue(queue.board), name="one").once(watch=watch)
     assert (done.id, done.state, done.attempt, done.worker) == (job.id, "done", 1, "one")
     assert done.done == done.total > 8
-    assert stages == ["human-human baseline", *STAGES]
+    assert stages == ["two people", *STAGES]
     assert "running" in states
     (standing,) = board.standings()
     assert (standing.row.name, standing.row.verified, standing.submitter) == ("mine", True, "Ada")
-    assert (board.bundle("1", job.submission) / "traces.npz").is_file()
+    bundle = board.bundle("1", job.submission)
+    assert (bundle / "traces.npz").is_file()
+    assert {each["policy"] for each in made_replays(bundle)} == {"mine"}
     assert board.human_human().rmse_mm.mean > 0
     for words in ("check", "public run", "hidden run", "0 of 2 public lifts failed", "done"):
         assert words in done.log

@@ -2,8 +2,10 @@
 
 import json
 import re
+from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.execution.batches import play
@@ -295,19 +297,63 @@ def test_a_ball_lies_on_the_table_and_the_error_is_its_distance_from_the_target(
     assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
-def test_hurdles_are_marked_at_their_ends(page_of_lift):
+def test_hurdles_are_bars_that_open_and_tell_by_how_much_they_are_missed(page_of_lift):
     page, episode = page_of_lift("agree_game", make_scenario("abreast", "S3", task="agree"))
+    intention = page.locator("path.intention").first.get_attribute("transform")
+    rest = float(re.search(r" (\S+)\)", intention)[1])
     for end in ("human", "robot"):
-        mark = page.locator(f"path.hurdle.{end}").get_attribute("transform")
-        shown = float(re.search(r" (\S+)\)", mark)[1])
-        rest = float(
-            re.search(r" (\S+)\)", page.locator("path.intention").first.get_attribute("transform"))[
-                1
-            ]
-        )
-        height = episode.trace.added[f"{end}_hurdle"][499] - episode.trace.target[499]
-        assert rest - shown == pytest.approx(height, abs=2e-4)
-    expect(page.locator("figcaption", has_text="Height difference")).to_be_visible()
+        series = episode.trace.added[f"{end}_hurdle"]
+        window = np.flatnonzero(series != episode.trace.target)
+        assert window[0] < 499 > window[-1]
+        bar = page.locator(f".replay-scene line.hurdle.{end}")
+        expect(bar).to_have_class(re.compile("closed"))
+        height = series[window[0]] - episode.trace.target[499]
+        assert rest - float(bar.get_attribute("y1")) == pytest.approx(height, abs=2e-4)
+        missed = episode.scores[f"{end}_hurdle_mm"]
+        words = f"{end}'s hurdle missed by {missed:.0f} mm"
+        expect(page.locator(".replay-chart text.words", has_text=words)).to_be_visible()
+        expect(page.locator(f".row-{end}", has_text=f"off {missed:.0f} mm")).to_be_visible()
+    slider(page).fill(str(window[0] / 100 + 0.5))
+    expect(page.locator(".replay-scene line.hurdle.robot")).to_have_class(re.compile("open"))
+    expect(page.locator("figcaption", has_text="Difference")).to_be_visible()
+
+
+@pytest.mark.parametrize("width", [640, 1200, 1920])
+@pytest.mark.parametrize(
+    ("policy", "behaviour", "task"),
+    [
+        ("blend", "pause", "level"),
+        ("pose_bayes", "switching", "intent"),
+        ("ball_game", "ball_pause", "ball"),
+        ("agree_game", "abreast", "agree"),
+    ],
+)
+def test_keys_stand_in_a_line_and_names_of_phases_keep_clear(
+    page_of_lift, policy, behaviour, task, width
+):
+    scenario = make_scenario(behaviour, "S2", task=task)
+    page, _ = page_of_lift(policy, scenario, viewport={"width": width, "height": 900})
+    for caption in page.locator("figcaption").all():
+        (*keys,) = (each.bounding_box() for each in caption.locator("> *").all())
+        assert max(each["y"] for each in keys) < min(each["y"] + each["height"] for each in keys)
+        assert all(a["x"] + a["width"] <= b["x"] for a, b in pairwise(keys))
+    names = [each.bounding_box() for each in page.locator("text.event").all()]
+    lines = [each.bounding_box() for each in page.locator("line.event").all()]
+    box = page.locator(".replay-chart > svg").first.bounding_box()
+    assert len(names) >= 3
+    assert all(each["x"] + each["width"] <= box["x"] + box["width"] for each in names)
+    for name in names:
+        others = [*lines, *(other for other in names if other is not name)]
+        assert not any(_meet(name, other) for other in others)
+
+
+def _meet(one, other):
+    """Return whether two boxes overlap by more than a pixel in height, and at all in width."""
+    left, top = (max(one[at], other[at]) for at in "xy")
+    right, bottom = (
+        min(one[a] + one[b], other[a] + other[b]) for a, b in (["x", "width"], ["y", "height"])
+    )
+    return left <= right and bottom - top > 1
 
 
 def test_the_player_draws_no_nao_for_another_holder(chromium, tmp_path):

@@ -137,6 +137,20 @@ def test_a_replay_has_the_series_that_its_task_draws_and_only_those(made):
     assert np.abs(heights(drawn["values"]) - far).max() <= 0.5e-4 + 1e-12
 
 
+def test_a_replay_has_the_hurdles_of_its_lift_with_what_the_scores_say():
+    scenario = make_scenario("own_hurdle", "S2", task="agree")
+    episode = next(play(PolicySpec(text="agree_leader"), scenario, (0,)))
+    content = replay_content(episode, scenario, play_ghost(scenario, 0), policy="agree_leader")
+    assert "drawn" not in content
+    (hurdle,) = content["hurdles"]
+    assert (hurdle["label"], hurdle["where"]) == ("human's hurdle", "human")
+    window = slice(hurdle["start"], hurdle["stop"])
+    height = episode.trace.added["human_hurdle"]
+    assert np.ptp(height[window]) == 0.0
+    assert hurdle["height"] == round(1e4 * height[window][0])
+    assert hurdle["missed"] == round(10 * episode.scores["human_hurdle_mm"])
+
+
 def test_the_body_at_the_robots_end_is_stated_unless_it_is_a_nao(made, episode, ghost, monkeypatch):
     assert "holder" not in made
     person = dataclasses.replace(SCENARIO, partner="live")

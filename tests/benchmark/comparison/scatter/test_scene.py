@@ -33,7 +33,7 @@ def point(name: str, rmse_mm: float, sparc: float | None = -2.0, **rest: object)
     return FrontPoint(name=name, rmse_mm=around(rmse_mm), second=exact(sparc), **rest)  # type: ignore[arg-type]
 
 
-BASELINE = point("human-human baseline", 9.5, -2.8, kind="baseline")
+BASELINE = point("two people", 9.5, -2.8, kind="baseline")
 
 
 def crowd(size: int) -> list[FrontPoint]:
@@ -190,7 +190,7 @@ def test_the_names_of_the_front_stand_clear_of_its_line(size: tuple[int, int]) -
 def test_the_baseline_is_at_one_on_the_scale_of_ratios() -> None:
     drawn = scene([point("a", 10.0), point("b", 20.0), BASELINE])
     (one,) = [tick.at for tick in drawn.ratios if tick.text == "1\N{MULTIPLICATION SIGN}"]
-    assert one == drawn.baseline == dots(drawn)["human-human baseline"].at[0]
+    assert one == drawn.baseline == dots(drawn)["two people"].at[0]
 
 
 def test_without_a_baseline_there_are_no_ratios() -> None:

@@ -1,22 +1,19 @@
-"""The scatter picture as PNG, by matplotlib."""
+"""The scatter picture as a figure of matplotlib, for files."""
 
-import io
 from collections.abc import Sequence
 from typing import Final
 
 from colift.benchmark.comparison.scatter.drawing import Anchor, Colour, draw
 from colift.benchmark.comparison.scatter.scale import Box, Place
-from colift.benchmark.comparison.scatter.scene import RADIUS, Dot, ScatterScene
-from colift.benchmark.rendering.style import FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
+from colift.benchmark.comparison.scatter.scene import LETTERS, RADIUS, Dot, ScatterScene
+from colift.benchmark.rendering.layout import Layout
+from colift.benchmark.rendering.style import DASHES, FAINT, HUMAN, INK, LINE, PAPER, ROBOT, SKY
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 
-PIXELS: Final = 1.6
-"""Pixels of the file per pixel of the scene."""
-
-POINT: Final = 0.72
-"""Points per pixel of the scene, at 100 pixels per inch."""
+HIGH: Final = 4.0
+HIGH_IN_COLUMN: Final = 3.6
+"""Heights of the picture on a page and in a column [inches]."""
 
 COLOURS: Final[dict[Colour, str]] = {
     "ink": INK,
@@ -30,31 +27,36 @@ COLOURS: Final[dict[Colour, str]] = {
 ALIGNED: Final[dict[Anchor, str]] = {"start": "left", "middle": "center", "end": "right"}
 
 
-def png(scene: ScatterScene) -> bytes:
-    """Return the picture as PNG: the same scene gives the same bytes."""
-    buffer = io.BytesIO()
-    figure = scatter_figure(scene)
-    figure.savefig(buffer, format="png", dpi=100 * PIXELS, metadata={"Software": None})
-    return buffer.getvalue()
+def scene_size(layout: Layout) -> tuple[int, int]:
+    """Return the size of a scene [px] whose letters have those of a layout in its figure."""
+    width, height = layout.size(HIGH_IN_COLUMN if layout.narrow else HIGH)
+    return round(width * _density(layout)), round(height * _density(layout))
 
 
-def scatter_figure(scene: ScatterScene) -> Figure:
+def scatter_figure(scene: ScatterScene, layout: Layout) -> Figure:
     """Return the picture as a figure of matplotlib, its axes in pixels of the scene."""
     width, height = scene.size
-    figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=PAPER)
+    density = _density(layout)
+    figure = Figure(figsize=(width / density, height / density), dpi=density, facecolor=PAPER)
     FigureCanvasAgg(figure)
-    pen = _FigurePen(figure, width, height)
+    pen = _FigurePen(figure, width, height, layout.letters / LETTERS)
     draw(scene, pen)
     return figure
+
+
+def _density(layout: Layout) -> float:
+    """Return the pixels of a scene per inch."""
+    return 72 * LETTERS / layout.letters
 
 
 class _FigurePen:
     """Draws on axes that fill a figure."""
 
-    def __init__(self, figure: Figure, width: int, height: int) -> None:
+    def __init__(self, figure: Figure, width: int, height: int, point: float) -> None:
         self._axes = figure.add_axes((0, 0, 1, 1))
         self._axes.set(xlim=(0, width), ylim=(height, 0))
         self._axes.set_axis_off()
+        self._point = point  # Points per pixel of the scene.
         self._order = 0
 
     def rectangle(self, box: Box, colour: Colour) -> None:
@@ -79,9 +81,9 @@ class _FigurePen:
         self._axes.plot(
             *zip(*places, strict=True),
             color=COLOURS[colour],
-            lw=width * POINT,
+            lw=width * self._point,
             alpha=opacity,
-            ls=(0, (4, 3)) if dashed else "-",
+            ls=DASHES if dashed else "-",
             zorder=self._next(),
         )
 
@@ -102,14 +104,14 @@ class _FigurePen:
             *at,
             text,
             color=COLOURS[colour],
-            size=size * POINT,
+            size=size * self._point,
             ha=ALIGNED[anchor],
             va="baseline",
             weight="bold" if bold else "normal",
             style="italic" if italic else "normal",
             rotation=90 if upward else 0,
             rotation_mode="anchor",
-            path_effects=[withStroke(linewidth=3 * POINT, foreground=PAPER)] if halo else None,
+            bbox={"facecolor": PAPER, "alpha": 0.75, "linewidth": 0, "pad": 0} if halo else None,
             parse_math=False,
             zorder=self._next(),
         )
@@ -119,10 +121,10 @@ class _FigurePen:
         self._axes.plot(
             *dot.at,
             shape,
-            ms=2 * RADIUS * POINT,
+            ms=2 * RADIUS * self._point,
             mec=COLOURS[colour],
             mfc=COLOURS[colour if filled else "paper"],
-            mew=1.7 * POINT,
+            mew=1.7 * self._point,
             zorder=self._next(),
         )
 

@@ -7,7 +7,7 @@ from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.formatting import between, digits, p_value, probability
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.episode.metric import Metric
-from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, reference_label
+from colift.benchmark.results.baselines import BEST_KNOWN, HUMAN_HUMAN_LABEL, reference_label
 from colift.benchmark.results.roughness import ROUGHER, SIGN
 from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import Cell, counted, styled, table
@@ -35,14 +35,14 @@ def ranks_table(comparison: Comparison) -> Table:
         title(comparison),
         (
             Column("#", justify="right"),
-            Column("policy", overflow="fold", min_width=len(HUMAN_HUMAN_LABEL)),
+            Column("policy", overflow="fold", min_width=len(reference_label(BEST_KNOWN))),
             *("RMSE mm", "95 %", "vs_human"),
             *(each.symbol for each in comparison.results.metrics),
         ),
         (cells for _, cells in sorted(rows, key=lambda row: row[0])),
         caption=f"{counted(overall.episodes, 'lift')} each; suite digest {suite.digest}. "
         + (undecided(overall) or RANK.replace("Rank:", "#, the rank:"))
-        + f" vs_human: RMSE over that of the {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
+        + f" vs_human: RMSE over that of {HUMAN_HUMAN_LABEL} on the same lift, geometric mean."
         f"{_columns(comparison)}{_no_policies(comparison)}{_fewer(comparison)}{_rough(comparison)}",
     )
 
@@ -66,7 +66,7 @@ def _fewer(comparison: Comparison) -> str:
     lifts = {
         metric.words.present: None
         for metric in comparison.results.metrics
-        if any(_partial(metric, ranked) for ranked in policies)
+        if any(ranked.partial(metric) for ranked in policies)
     }
     return f" †: mean over the lifts {' or '.join(lifts)}." if lifts else ""
 
@@ -109,13 +109,15 @@ def _rank(overall: Ranking, ranked: RankedPolicy) -> str:
 
 def _metric(metric: Metric, ranked: RankedPolicy) -> str:
     mean = ranked.scores.metric(metric.name).mean
-    return metric.text(mean) + (" †" if _partial(metric, ranked) else "")
+    return metric.text(mean) + (" †" if ranked.partial(metric) else "")
 
 
-def _partial(metric: Metric, ranked: RankedPolicy) -> bool:
-    """Return whether a mean leaves out lifts that count as the worst."""
-    found = ranked.scores.metric(metric.name)
-    return metric.missing == "worst" and found.mean is not None and found.missing > 0
+def comparison_tables(comparison: Comparison) -> list[Table]:
+    """Return all tables: ranks, differences and, of several behaviours, the error on each."""
+    tables = [ranks_table(comparison), differences_table(comparison)]
+    if len(comparison.behaviours) > 1:
+        tables.append(behaviours_table(comparison))
+    return tables
 
 
 def differences_table(comparison: Comparison) -> Table:

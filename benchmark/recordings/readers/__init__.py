@@ -1,0 +1,1 @@
+"""Readers of motion files, one file for each format."""

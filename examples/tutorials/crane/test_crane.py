@@ -1,0 +1,6 @@
+from colift.testing import check_robot
+from crane import Crane
+
+
+def test_it_conforms():
+    check_robot(Crane())
