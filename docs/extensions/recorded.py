@@ -13,6 +13,7 @@ from docutils import nodes
 from docutils.parsers.rst import directives
 from printed_tables import PrintedTable, read_output
 from sphinx.application import Sphinx
+from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective, SphinxRole
 
 FOLDER: Final = "figures"
@@ -72,9 +73,7 @@ class ResultTable(SphinxDirective):
             following = parts[place + 1] if place + 1 < len(parts) else ""
             if isinstance(part, PrintedTable):
                 before = parts[place - 1] if place else ""
-                table = _table(part, before if _is_title(before) else "")
-                self.state.document.set_id(table)  # Sphinx wants one where there is a title.
-                found.append(table)
+                found.append(_table(part, before if _is_title(before) else ""))
             elif not (isinstance(following, PrintedTable) and _is_title(part)):
                 found.append(nodes.paragraph("", part, classes=["printed"]))
         return found
@@ -130,17 +129,24 @@ def _words(text: str) -> str:
 
 
 def mark(app: Sphinx, doctree: nodes.document) -> None:
-    """Mark the outputs within a block whose tables fit the page: lines of a table are indented.
-
-    A table loses the name that its title has given it: the theme would repeat it around the table.
-    """
-    for table in doctree.findall(nodes.table):
-        if "printed" in table["classes"]:
-            table["ids"] = []
+    """Mark the outputs within a block whose tables fit the page: lines of a table are indented."""
     for block in doctree.findall(nodes.literal_block):
         lines = block.astext().splitlines()
         if "source" in block and all(len(line) <= WIDTH for line in lines if line[:1] == " "):
             block["classes"].append(FOLDS)
+
+
+class OneName(SphinxPostTransform):
+    """Leaves the name of a table to the table: the theme repeats it around the table."""
+
+    formats = ("html",)
+    default_priority = 600  # After the theme's.
+
+    def run(self, **kwargs: Any) -> None:
+        """Take the names from the boxes."""
+        for box in self.document.findall(nodes.container):
+            if "table-wrapper" in box["classes"]:
+                box["ids"] = []
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
@@ -148,4 +154,5 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_role("figure", Figure())
     app.add_directive("result-table", ResultTable)
     app.connect("doctree-read", mark)
+    app.add_post_transform(OneName)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -12,7 +12,7 @@ class PoseLearned(TouchController):
 
     128 gated recurrent units remember the lift so far. The network was trained on the score itself,
     by gradients through whole lifts of the twin, with people whose manners were drawn anew for each
-    lift (``colift train apg --task intent --updates 1000 --units 128 --lifts 6000 --rate 0.001
+    lift (``colift train apg --task intent --updates 4000 --units 128 --lifts 12000 --rate 0.001
     --wide 0.1``). See :func:`.felt_action` for the equations.
     """
 

@@ -60,7 +60,7 @@ def test_each_task_with_touch_has_a_reference_that_no_policy_of_its_passes(
     """The oracle of two hurdles tries a quarter of its bumps, which is less than it can.
 
     ``agree_learned`` is a network like its reference: on all lifts of the suite they are equal.
-    ``ball_learned`` is its reference.
+    ``ball_learned`` and ``pose_learned`` are their references.
     """
     monkeypatch.setattr(rehearsal, "BUMP_SPACING", 4 * rehearsal.BUMP_SPACING)
     task = policy.partition("_")[0].replace("pose", "intent")
