@@ -1,5 +1,6 @@
 """Whole lifts of the twin with a policy at the robot's end, as one function."""
 
+from functools import partial
 from typing import Any, NamedTuple
 
 import jax
@@ -75,7 +76,11 @@ def rollout(
             mind, after = person.policy(mind, jnp.concatenate(own))
             minding, added = (mind, after), added_in_step(before, after, lifts.frames)
         view = twin.observe(state, lifts, share)
+        before = memory
         memory, action = policy(memory, jnp.concatenate((view, extra)))
+        if seen:  # What is left for the next lift is the memory at this one's own end.
+            lasting = state.step < lifts.steps
+            memory = jax.tree.map(partial(jnp.where, lasting), memory, before)
         later, ends = twin.step(state, lifts, share, action, added)
         lasts = (state.step < lifts.steps).astype(view.dtype)
         force = (later.plant.forces[: lifts.frames] ** 2).mean(axis=0) * lasts

@@ -140,14 +140,14 @@ def check_part(suite: Suite) -> Suite:
     """Return a suite of at most :data:`FEW` lifts unchanged, of others two lifts per behaviour.
 
     Each behaviour has other people, as far as there are enough of them: two if the suite has a
-    single seed, else one. Of sessions there are two, whole.
+    single seed, else one. Of sessions there are four, whole.
     """
     if suite.size <= FEW:
         return suite
     behaviours: dict[str, list[Scenario]] = {}
     for scenario in suite.scenarios:
         behaviours.setdefault(scenario.behaviour, []).append(scenario)
-    people = 2 if suite.session or len(suite.seeds) == 1 else 1
+    people = 4 if suite.session else 2 if len(suite.seeds) == 1 else 1
     return dataclasses.replace(
         suite,
         name=f"{suite.name}, a part",
