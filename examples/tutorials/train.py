@@ -4,8 +4,8 @@ from pathlib import Path
 
 import colift
 import numpy as np
-from matplotlib import pyplot as plt
 from gains import Policy
+from matplotlib import pyplot as plt
 
 BEHAVIOURS = "smooth", "pause", "jerky", "changing_goal"
 GENERATIONS, CANDIDATES, ELITE, LIFTS = 5, 10, 3, 4
