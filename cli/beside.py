@@ -16,7 +16,7 @@ from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import is_policy_failure
 from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.progress import progress_bar
-from colift.benchmark.results.baselines import partner_spec
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, partner_spec
 from colift.benchmark.tables.failures import printed_lines
 
 if TYPE_CHECKING:
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 HUMAN: Final = "human"
 """The second person among the partners."""
-
-TWO_PEOPLE: Final = "two people"
 
 Lift = tuple[AgentSpec, Scenario]
 
@@ -86,7 +84,7 @@ def draw_beside(out: Path, lifts: Sequence[Lift], seed: int, look: "Look") -> No
 
     partners = [
         Partner(
-            name=TWO_PEOPLE if played.partner == HUMAN else spec.name,
+            name=HUMAN_HUMAN_LABEL if played.partner == HUMAN else spec.name,
             episode=played_lift(spec, played, seed),
             scenario=played,
         )

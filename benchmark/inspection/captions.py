@@ -9,6 +9,7 @@ from colift.benchmark.episode.drawn import error_words, is_scored
 from colift.benchmark.episode.metric import LEADING, drawn_series, on_boards
 from colift.benchmark.inspection.findings import Findings, WorstLift
 from colift.benchmark.rendering.formats import number, signed, words
+from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL
 from colift.benchmark.results.strata import StratumScore, vs_human_mean
 
 PARTS: Final = (
@@ -62,6 +63,11 @@ def phases_caption(found: Findings) -> str:
         f"and of the squared {noun}, over all lifts; frames after a failure are in no phase. "
         f"RMS: of the {noun} in the phase, in mm."
     )
+
+
+def phases_head(found: Findings) -> tuple[str, ...]:
+    """Return the column names of the table of phases."""
+    return "phase", "time", shown(found), "RMS mm", HUMAN_HUMAN_LABEL
 
 
 def verdict(found: Findings) -> str:

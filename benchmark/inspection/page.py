@@ -69,7 +69,7 @@ def inspection_page(found: Findings, drawn: Callable[[int], None] = lambda pictu
             [mark for each in found.parts for mark in each.marks],
         ),
         phases_caption=captions.phases_caption(found),
-        phases_header=("phase", "time", captions.shown(found), "RMS mm", "two people"),
+        phases_header=captions.phases_head(found),
         phases=_rows(found.phases),
         failures=found.failures,
         most_reasons=MOST_REASONS,

@@ -8,6 +8,7 @@ from colift.benchmark.inspection.captions import (
     PARTS,
     distances,
     phases_caption,
+    phases_head,
     provenance,
     shown,
     title,
@@ -97,7 +98,7 @@ def _part_row(each: PartScore) -> list[Cell]:
 def _phases_table(found: Findings) -> Table:
     return table(
         "Phases of a lift",
-        ("phase", "time", shown(found), "RMS mm", "two people"),
+        phases_head(found),
         [
             (
                 words(each.name),

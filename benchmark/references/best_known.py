@@ -46,9 +46,10 @@ class BestKnown(InProcess):
     It is no bound: it has the least error known so far with a policy's observations, at the suites'
     latency and control period, and whoever passes it becomes the reference. It has the equations of
     the task's learned policy (:class:`.Learned`, or :class:`.TouchController`), and was trained in
-    the same way, by gradients through the twin's lifts, for the error alone: nothing was traded for
-    smoothness, for people other than the benchmark's, or for other arms. That of a level table saw
-    its own hand with 0.1 mm of noise; a policy that relies on exact encoders may reach a lower
+    the same way, by gradients through the twin's lifts, for the error and not for smoothness. In
+    some tasks it is the shipped learned policy itself, whose people and arms were varied; one
+    trained for the benchmark's people and arm alone may reach a lower error. That of a level table
+    saw its own hand with 0.1 mm of noise; a policy that relies on exact encoders may reach a lower
     error, but no robot has them.
     """
 

@@ -5,6 +5,7 @@ from typing import Final
 import numpy as np
 
 from colift.benchmark.bundle import Results
+from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.rendering.figures import drawn_for, neutral_svg
 from colift.benchmark.rendering.layout import PAGE
@@ -28,7 +29,7 @@ def evaluation_picture(run: Run, results: Results) -> str:
     behaviours = list(dict.fromkeys(episode.behaviour for episode in run.episodes))
     with drawn_for(PAGE):
         figure, ((axes,),) = panels(
-            PAGE, [""], [ROW * len(behaviours)], x_label="RMSE of the height difference [mm]"
+            PAGE, [""], [ROW * len(behaviours)], x_label=run.suite.metrics[LEADING].axis
         )
         for row, behaviour in enumerate(behaviours):
             errors = [e.scores["rmse_mm"] for e in run.episodes if e.behaviour == behaviour]
