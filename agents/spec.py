@@ -64,7 +64,7 @@ class Paced(Protocol):
     """An agent with time budgets that follow from the control period."""
 
     def paced(self, period: float, lifts: int = 1) -> Self:
-        """Return the same agent with the time budgets of a control period [s], and of many lifts."""
+        """Return the same agent with the time budgets of a control period [s] and of many lifts."""
 
 
 class InProcess:

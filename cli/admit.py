@@ -99,7 +99,8 @@ def admit_suite(
     if episodes.session:
         if pairs:
             raise InputError("--pairs is for tasks with touch; this suite has none")
-        _finish(_remember(episodes, session_budget(updates or session_kinds.UPDATES), out, jobs), as_json=as_json)
+        settings = session_budget(updates or session_kinds.UPDATES)
+        _finish(_remember(episodes, settings, out, jobs), as_json=as_json)
         return
     if needs_inference(episodes):
         if pairs:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from typing import Protocol, Self, runtime_checkable
 
 from colift.agents.humans.plan import Behaviour
+from colift.agents.humans.subject import Subject
 
 
 @runtime_checkable
@@ -22,6 +23,13 @@ class Serial(Behaviour, Protocol):
     @property
     def counted(self) -> int:
         """Lifts at the end of a session that count; those before are to get to know each other."""
+
+    @property
+    def trust(self) -> float:
+        """Trust in the partner before this lift, from 0 to 1."""
+
+    def change(self, subject: Subject) -> int | None:
+        """Return the place of the lift from which on a habit of a person is another one."""
 
     def at(self, place: int) -> Self:
         """Return the behaviour in the lift at a place, of a person who has learned nothing."""

@@ -14,8 +14,8 @@ class AcquaintedParameters:
     """Parameters of :class:`Acquainted`."""
 
     remember: bool = True
-    """Whether the units are kept from lift to lift; without, the weights are those of a network that
-    was trained alike, and begins each lift anew."""
+    """Whether the units are kept from lift to lift; without, the weights are those of a network
+    that was trained alike, and begins each lift anew."""
     model: str | None = None
     """File ``weights.npz`` of a folder written by ``colift train apg --session``; None: a shipped
     one."""

@@ -110,7 +110,7 @@ def results(run: Run, baselines: Mapping[str, ScoreTable]) -> Results:
         strata=stratum_scores(scores, human),
         baselines=baselines,
         channel=run.channel,
-        session=session_curve(run.suite, scores, human),
+        session=session_curve(run, scores, human),
         goals=goal_scores(
             run.suite, {episode.trial for episode in run.episodes if episode.failure is not None}
         ),

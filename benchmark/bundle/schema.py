@@ -134,6 +134,11 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
                 {"anyOf": [curve, {"type": "null"}]},
                 "That of two people; null without this baseline.",
             ),
+            "change_mm": _of(
+                {"anyOf": [estimate, {"type": "null"}]},
+                "Rise of the RMSE in the lift of a changed habit [mm]; null if nobody has one.",
+            ),
+            "trust": _of(curve, "Mean trust of the people after each lift, from 0 to 1."),
         },
         "The errors lift by lift; only of suites with sessions.",
     )

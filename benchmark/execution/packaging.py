@@ -43,7 +43,7 @@ class PackagedPolicy:
         """Do nothing: the policy was checked before it was packaged."""
 
     def paced(self, period: float, lifts: int = 1) -> "PackagedPolicy":
-        """Return the same policy with the time budgets of a control period [s], and of many lifts."""
+        """Return the same, with the time budgets of a control period [s] and of many lifts."""
         spec = self.spec.paced(period, lifts) if isinstance(self.spec, Paced) else self.spec
         return dataclasses.replace(self, spec=spec)
 

@@ -75,7 +75,7 @@ def play_session(
             begin = time.perf_counter()
             if session is None:
                 stack.close()
-                session = _in_session(entered(stack, policy))
+                session = in_session(entered(stack, policy))
             made = time.perf_counter() - begin
             agent = session
             if channel is not None:
@@ -152,5 +152,6 @@ class _ExplainingSession(_Session):
         return self._explaining.internals()
 
 
-def _in_session(agent: Agent) -> _Session:
+def in_session(agent: Agent) -> Agent:
+    """Return an agent whose first ``reset`` begins a session, and whose others go on with it."""
     return _ExplainingSession(agent, agent) if isinstance(agent, Explaining) else _Session(agent)

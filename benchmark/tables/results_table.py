@@ -1,6 +1,6 @@
 """Results as tables and text for a terminal."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 from colift.agents.real_time import LOWEST_RATE
@@ -9,6 +9,7 @@ from colift.benchmark.bundle import Results
 from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
+from colift.benchmark.results.curve import SessionCurve
 from colift.benchmark.results.headline import error, versus_human
 from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.results.strata import (
@@ -17,7 +18,6 @@ from colift.benchmark.results.strata import (
     mean_of_strata,
     spread_over_people,
 )
-from colift.benchmark.statistics import Estimate
 from colift.benchmark.tables.printing import counted, optional_number, styled, table
 from rich.table import Table
 
@@ -87,9 +87,7 @@ def results_text(content: Results, metrics: Metrics) -> str:
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
     if content.session is not None:
-        lines.append(_curve("RMSE mm, lift by lift", content.session.rmse_mm))
-        if content.session.human_human_rmse_mm is not None:
-            lines.append(_curve("  two people", content.session.human_human_rmse_mm))
+        lines.extend(curve_lines(content.session))
     if summary.rougher:
         lines.append(f"{MEANING} This policy is, by {by_which(summary.rougher, metrics)}.")
     for name, baseline in content.baselines.items():
@@ -125,9 +123,13 @@ def _session(content: Results) -> str:
     )
 
 
-def _curve(label: str, curve: Sequence[Estimate]) -> str:
-    """Return the errors of the lifts of a session in a line."""
-    return f"{label}: {' '.join(f'{each.mean:.1f}' for each in curve)}"
+def curve_lines(curve: SessionCurve) -> Iterator[str]:
+    """Yield what happens from the first lift of a session to the last, in lines."""
+    people = curve.human_human_rmse_mm
+    for label, errors in (("RMSE mm, lift by lift", curve.rmse_mm), ("two people", people or ())):
+        if errors:
+            yield f"{label}: {' '.join(f'{each.mean:.1f}' for each in errors)}"
+    yield curve.learned
 
 
 def _over(content: Results) -> str:

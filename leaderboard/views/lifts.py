@@ -10,6 +10,7 @@ from pathlib import Path
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
 from colift.benchmark.bundle.table import HUMAN_HUMAN_RMSE
 from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.curve import SessionCurve
 from colift.benchmark.results.lifts import ScoredLift
 from colift.benchmark.results.parts import Part
 from colift.benchmark.results.scores import ScoreTable
@@ -37,6 +38,12 @@ def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...
         StratumScore.read(group, read_means(group, results["suite"], group["episodes"]))
         for group in results["groups"]
     )
+
+
+def session_of(bundle: Path) -> SessionCurve | None:
+    """Return the errors lift by lift of a bundle; None if its lifts are independent."""
+    content = read_json(bundle / RESULTS).get("session")
+    return None if content is None else SessionCurve.read(content)
 
 
 def public_lifts(bundle: Path) -> tuple[ScoredLift, ...]:

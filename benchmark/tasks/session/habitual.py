@@ -20,7 +20,7 @@ from colift.benchmark.tasks.session.acquaintance import (
 )
 from colift.benchmark.tasks.session.partner import KnowingPartner
 from colift.benchmark.tasks.session.person import Helps
-from colift.benchmark.tasks.session.usual import UsualLift, drawn_habits, usual_lift
+from colift.benchmark.tasks.session.usual import UsualLift, drawn_habits, usual_change, usual_lift
 
 REST: Final = (3.0, 4.0)
 """Shortest and longest rest after the lowering [s]: the time for those who were slowed down."""
@@ -63,6 +63,15 @@ class Habitual:
     def rules(self) -> Person:
         """The rules of this person in this lift."""
         return Helps(known=self.known)
+
+    @property
+    def trust(self) -> float:
+        """Trust in the partner before this lift; see :attr:`.Acquaintance.trust`."""
+        return self.known.trust
+
+    def change(self, subject: Subject) -> int | None:
+        """Return the place of the lift from which on a habit is another one; None if none is."""
+        return usual_change(subject)
 
     def at(self, place: int) -> Self:
         """Return the behaviour in the lift at a place, of a person who has learned nothing."""

@@ -60,14 +60,23 @@ WAY: Final = ("way", "at", "length", "size")
 
 def usual_lift(subject: Subject, place: int) -> UsualLift:
     """Return a person's habits in a lift of a session; before and after one change, if any."""
+    first, later, change = _habits(subject)
+    return first if change is None or place < change else later
+
+
+def usual_change(subject: Subject) -> int | None:
+    """Return the place of the lift from which on a habit is another one; None if none is."""
+    return _habits(subject)[2]
+
+
+def _habits(subject: Subject) -> tuple[UsualLift, UsualLift, int | None]:
+    """Return a person's habits before and after a change, and the change's place, if any."""
     rng = np.random.default_rng((_number(subject), _SALT))
     first, other = drawn_habits(subject, rng), drawn_habits(subject, rng)
     which, when, whether = rng.random(3).tolist()
-    change = CHANGES[int(when * len(CHANGES))]
-    if whether >= CHANGING or place < change:
-        return first
     group = (ONSET, GOAL, WAY)[int(3 * which)]
-    return first._replace(**{name: getattr(other, name) for name in group})
+    later = first._replace(**{name: getattr(other, name) for name in group})
+    return first, later, CHANGES[int(when * len(CHANGES))] if whether < CHANGING else None
 
 
 def drawn_habits(subject: Subject, rng: np.random.Generator) -> UsualLift:
