@@ -40,6 +40,7 @@ from colift.cli.options import (
     Behaviours,
     ChannelName,
     Dask,
+    InSessions,
     Jobs,
     LayoutName,
     PolicyIsolation,
@@ -80,6 +81,7 @@ def compare_policies(
     seeds: Seeds = None,
     recordings: Recordings = None,
     as_recorded: AsTheyWere = False,
+    session: InSessions = False,
     robot: RobotName = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
@@ -120,10 +122,14 @@ def compare_policies(
         raise InputError("--resume needs the --out of the comparison that was interrupted")
     named = policies or []
     bundles = stored_among(named)
-    if bundles and not (suite or seeds or recordings or as_recorded or behaviour or robot):
+    if bundles and not (
+        suite or seeds or recordings or as_recorded or session or behaviour or robot
+    ):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded)
+        episodes = chosen_suite(
+            suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded, session=session
+        )
     episodes = episodes.with_timing(latency, control_period)
     task = episodes.scenarios[0].task.name
     specs, stored = _policies(named, playing(task) if everything else (), bundles, task, isolation)

@@ -25,11 +25,11 @@ class Serial(Behaviour, Protocol):
         """Lifts at the end of a session that count; those before are to get to know each other."""
 
     @property
-    def trust(self) -> float:
-        """Trust in the partner before this lift, from 0 to 1."""
+    def trust(self) -> float | None:
+        """Trust in the partner before this lift, from 0 to 1; None if nobody knows it."""
 
     def change(self, subject: Subject) -> int | None:
-        """Return the place of the lift from which on a habit of a person is another one."""
+        """Return the place of the lift from which on a habit is another one; None if none is."""
 
     def at(self, place: int) -> Self:
         """Return the behaviour in the lift at a place, of a person who has learned nothing."""

@@ -138,7 +138,10 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
                 {"anyOf": [estimate, {"type": "null"}]},
                 "Rise of the RMSE in the lift of a changed habit [mm]; null if nobody has one.",
             ),
-            "trust": _of(curve, "Mean trust of the people after each lift, from 0 to 1."),
+            "trust": _of(
+                curve,
+                "Mean trust of the people after each lift, from 0 to 1; empty if it is not known.",
+            ),
         },
         "The errors lift by lift; only of suites with sessions.",
     )

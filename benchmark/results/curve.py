@@ -1,7 +1,7 @@
 """The curve of a session: the errors of its lifts, in order, and the trust of its people."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -32,7 +32,7 @@ class SessionCurve:
     """RMSE of the lift in which a person changes a habit, less that of the lift before [mm]; None
     if nobody does."""
     trust: tuple[Estimate, ...]
-    """Mean trust of the people after each lift, from 0 to 1."""
+    """Mean trust of the people after each lift, from 0 to 1; empty if it is not known."""
 
     def plain(self) -> dict[str, Any]:
         """Return the curve, ready for JSON."""
@@ -54,10 +54,13 @@ class SessionCurve:
     def learned(self) -> str:
         """What the policy and its people have learned, in one line."""
         change = self.change_mm
-        cost = "" if change is None else f"{change.mean:+.1f} mm when a habit changes; "
-        return (
-            f"{100 * math.expm1(self.rate):+.0f} % from lift to lift; {self.whole:.1f} mm over "
-            f"all; {cost}trust of the people at the end {self.trust[-1].mean:.2f} of 1"
+        return "; ".join(
+            (
+                f"{100 * math.expm1(self.rate):+.0f} % from lift to lift",
+                f"{self.whole:.1f} mm over all",
+                *(() if change is None else [f"{change.mean:+.1f} mm when a habit changes"]),
+                *(f"people's trust at the end {last.mean:.2f} of 1" for last in self.trust[-1:]),
+            )
         )
 
     @property
@@ -88,7 +91,7 @@ def session_curve(
         rmse_mm=lift_errors(suite, scores),
         human_human_rmse_mm=None if human_human is None else lift_errors(suite, human_human),
         change_mm=_change(suite, _by_session(suite, scores)),
-        trust=_over_people(suite, np.array([*_trust(run)])),
+        trust=_trust(run),
     )
 
 
@@ -120,15 +123,17 @@ def _change(suite: Suite, errors: NDArray[np.float64]) -> Estimate | None:
     return mean_of(rises, Units.people(people)) if rises else None
 
 
-def _trust(run: Run) -> Iterator[list[float]]:
-    """Yield the trust of each session's person after each lift."""
-    lifts = iter(run.episodes)
+def _trust(run: Run) -> tuple[Estimate, ...]:
+    """Return the mean trust of the people after each lift; empty if it is not known."""
+    lifts, found = iter(run.episodes), []
     for scenario in run.suite.scenarios:
-        trust = []
         for _ in range(run.suite.session):
             scenario = after(scenario, next(lifts).trace)
-            trust.append(scenario.human.trust)
-        yield trust
+            human = scenario.human
+            found.append(human.trust if isinstance(human, Serial) else None)
+    if None in found:
+        return ()
+    return _over_people(run.suite, np.reshape(np.array(found), (-1, run.suite.session)))
 
 
 def session_axis(curve: SessionCurve | None) -> Axis | None:

@@ -37,7 +37,7 @@ def choose_replays(episodes: Sequence[Episode], session: int = 0) -> tuple[Repla
     by_behaviour: dict[str, list[int]] = {}
     for row, episode in enumerate(episodes):
         by_behaviour.setdefault(episode.behaviour, []).append(row)
-    found = []
+    found: list[ReplayChoice] = []
     for behaviour, rows in by_behaviour.items():
         if session and len(rows) % session == 0:
             found += _of_sessions(episodes, behaviour, rows, session)

@@ -70,8 +70,13 @@ def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[ScoredLift, ...]:
 
 
 def public_scores(bundle: Path) -> ScoreTable:
-    """Return the RMSE of the lifts of a bundle, in the suite's order."""
-    lifts = public_lifts(bundle)
+    """Return the RMSE of the lifts of a bundle that count, in the suite's order."""
+    lifts, session = public_lifts(bundle), session_of(bundle)
+    if session is not None:
+        length = len(session.rmse_mm)
+        lifts = tuple(
+            lift for i, lift in enumerate(lifts) if i % length >= length - session.counted
+        )
     return ScoreTable(
         strata=tuple((lift.behaviour, lift.subject) for lift in lifts),
         values={LEADING: tuple(lift.rmse_mm for lift in lifts)},

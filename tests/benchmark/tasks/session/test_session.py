@@ -19,7 +19,7 @@ from colift.benchmark.verification.audit import audit
 
 WHOLE = make_suite("session-v1")
 SUITE = dataclasses.replace(WHOLE, name="few", scenarios=WHOLE.scenarios[:3])
-RECALL = PolicySpec(text="recall,latency=0.2")
+RECALL = PolicySpec(text="recall")
 
 POLICY = """
 import numpy as np
