@@ -74,7 +74,7 @@ def write_bundle(
             run.episodes,
             run.suite.metrics,
             treated(run.suite),
-            None if human_human is None else human_human.lifts_mm,
+            None if human_human is None else human_human.lifts_at(run.places),
         ),
     }
     if recipe is not None and recipe.recordings is not None:

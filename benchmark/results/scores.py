@@ -122,6 +122,13 @@ class ScoreTable:
         """RMSE of each lift of the suite [mm], by its place."""
         return self.session_mm or self.rmse_mm
 
+    def lifts_at(self, places: Sequence[int]) -> Sequence[float]:
+        """Return the RMSE of the lifts of a run [mm], by the run's places.
+
+        Without sessions the run and this table have the same lifts.
+        """
+        return [self.session_mm[each] for each in places] if self.session_mm else self.rmse_mm
+
     @property
     def mean(self) -> float:
         """Mean RMSE [mm]."""
