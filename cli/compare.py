@@ -11,7 +11,7 @@ import typer
 from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import EvaluatorFault, InputError
-from colift.base.registry import STANDARD_SUITE, check_plays, playing
+from colift.base.registry import STANDARD_SUITE, check_plays
 from colift.benchmark.comparison.captions import failures, remarks
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
@@ -25,6 +25,7 @@ from colift.benchmark.execution.journal import Journal
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.rendering.layout import PAGE
+from colift.benchmark.suites.policies import playing_on
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
 from colift.cli.completion import policies as named
@@ -132,7 +133,13 @@ def compare_policies(
         )
     episodes = episodes.with_timing(latency, control_period)
     task = episodes.scenarios[0].task.name
-    specs, stored = _policies(named, playing(task) if everything else (), bundles, task, isolation)
+    specs, stored = _policies(
+        named,
+        playing_on(episodes) if everything else (),
+        bundles,
+        task,
+        isolation,
+    )
     for folder in bundles:
         mention_others(Path(folder))
     network = chosen_channel(channel)
