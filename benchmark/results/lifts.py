@@ -46,7 +46,7 @@ def scored_lifts(run: Run, human_human: ScoreTable | None) -> Iterator[ScoredLif
 
     ``human_human`` is the human-human baseline on the same lifts, if it is known.
     """
-    people = human_human and human_human.lifts_at(run.places)
+    people = None if human_human is None else human_human.lifts_at(run.places)
     for row, episode in enumerate(run.episodes):
         yield ScoredLift(
             behaviour=episode.behaviour,
