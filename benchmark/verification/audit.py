@@ -11,7 +11,7 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.batches import Batch, Faults, run_batches
 from colift.benchmark.execution.runner import Run, placed
 from colift.benchmark.suites.hidden import keyed
-from colift.benchmark.suites.suite import Due, Suite
+from colift.benchmark.suites.suite import Suite
 
 AUDIT: Final = "audit"
 """Name of the instance of a sandboxed policy that is played again."""
@@ -136,16 +136,17 @@ def _again(
     Of a session all lifts are played up to the last that is wanted.
     """
     there, found = placed(policy, executor), {}
-    wanted = [Batch(policy=there, lifts=_until(run.suite, index)) for index in indices]
+    wanted = [_batch(there, run.suite, index) for index in indices]
     for index, episode in run_batches(wanted, executor, Faults()):
-        if index in indices:
-            found[index] = episode
-            keep(index, episode)
-            progress(1)
+        found[index] = episode
+        keep(index, episode)
+        progress(1)
     return found
 
 
-def _until(suite: Suite, place: int) -> tuple[Due, ...]:
-    """Return the lift at a place, with those of its session before."""
+def _batch(policy: AgentSpec, suite: Suite, place: int) -> Batch:
+    """Return the lift at a place, after those of its session before."""
     first = place - place % suite.session if suite.session else place
-    return tuple(suite.at(each) for each in range(first, place + 1))
+    before = range(first, place)
+    lifts = tuple(suite.at(each) for each in (*before, place))
+    return Batch(policy=policy, lifts=lifts, done=frozenset(before))
