@@ -1,6 +1,7 @@
 """Anticipation that finds out the age of its samples."""
 
 import dataclasses
+from dataclasses import dataclass
 
 from colift.agents.agent import Action, Observation
 from colift.agents.control.anticipation import load_anticipation
@@ -8,16 +9,23 @@ from colift.agents.policies.anticipate import AnticipateParameters, Anticipation
 from colift.agents.sessions.sensor_age import SensorAge
 
 
+@dataclass(frozen=True, kw_only=True)
+class SessionAnticipateParameters:
+    """Parameters of :class:`SessionAnticipate`."""
+
+    remember: bool = True
+    """Whether the age is kept from lift to lift."""
+
+
 class SessionAnticipate:
     """Plans as :class:`.Anticipate`, farther ahead if the samples are older than usual (ours).
 
     Its forecast was learned with samples of one age; the age of the session's
-    (:class:`.SensorAge`) beyond that is added to the time by which the arm is behind. With
-    ``remember`` false it is forgotten after each lift.
+    (:class:`.SensorAge`) beyond that is added to the time by which the arm is behind.
     """
 
-    def __init__(self, *, remember: bool = True) -> None:
-        self._remember = remember
+    def __init__(self, *, parameters: SessionAnticipateParameters | None = None) -> None:
+        self._remember = (parameters or SessionAnticipateParameters()).remember
         self._model = load_anticipation()
         self.begin_session()
 

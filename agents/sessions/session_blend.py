@@ -1,6 +1,7 @@
 """The paper's blend, whose filter is tuned again to each person."""
 
 import dataclasses
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -14,17 +15,24 @@ FACTORS: Final = (0.01, 0.1, 1.0, 10.0, 100.0)
 """Process noise that is tried after each lift, relative to the shipped one."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class SessionBlendParameters:
+    """Parameters of :class:`SessionBlend`."""
+
+    remember: bool = True
+    """Whether it learns from lift to lift; without, each lift is the first, as of ``blend``."""
+
+
 class SessionBlend:
     """Blends as :class:`.Blend`, with what the lifts before have taught (ours).
 
     After each lift the process noise of the Kalman filter is the one of :data:`FACTORS` with the
     least squared error of the predictions in all lifts of the session, and the prediction goes as
-    far ahead as the samples are old (:class:`.SensorAge`). With ``remember`` false each lift is the
-    first, and that is :class:`.Blend`.
+    far ahead as the samples are old (:class:`.SensorAge`).
     """
 
-    def __init__(self, *, remember: bool = True) -> None:
-        self._remember = remember
+    def __init__(self, *, parameters: SessionBlendParameters | None = None) -> None:
+        self._remember = (parameters or SessionBlendParameters()).remember
         self._usual = PredictorParameters()
         self._reactive = Reactive()
         self.begin_session()
