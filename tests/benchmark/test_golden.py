@@ -34,7 +34,10 @@ OTHERS = {"paper-v1": 2, "robust-v1": 41, "session-v1": 20, "standard-v1": 31}
 SOME = ("copy", "blend", "learned")
 """The policies that play them."""
 
-REMEMBERING = ("acquainted", "recall", "session_anticipate", "session_blend", "session_linear")
+REMEMBERING = (
+    *("acquainted", "recall", "refined"),
+    *("session_anticipate", "session_blend", "session_linear"),
+)
 """The policies that play whole sessions."""
 
 
