@@ -31,6 +31,14 @@ class Agent(Protocol):
 
 
 @runtime_checkable
+class Remembering(Protocol):
+    """An agent that keeps what it learns in a lift for the next ones with the same person."""
+
+    def begin_session(self) -> None:
+        """Begin with a new person; the lifts of the session follow, each after a ``reset``."""
+
+
+@runtime_checkable
 class Explaining(Protocol):
     """An agent that explains its last action."""
 
@@ -49,6 +57,14 @@ class Printing(Protocol):
     @property
     def printed(self) -> str:
         """Return the end of its output to stdout and stderr since the reset."""
+
+
+@runtime_checkable
+class Resuming(Protocol):
+    """An agent in a process of its own, in which ``reset`` begins a session."""
+
+    def resume(self, seed: int) -> None:
+        """Begin the next lift of the session: the policy's ``reset``, and all that it remembers."""
 
 
 class RobotObservation(IntEnum):

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Final, Protocol, Self, runtime_checkable
 
-from colift.agents.agent import Agent
+from colift.agents.agent import Agent, Remembering
 from colift.agents.traced import traced
 from colift.base.threads import one_thread
 
@@ -37,7 +37,7 @@ class AgentSpec(Protocol):
         """Raise an InputError if there is no such agent."""
 
     def agent(self) -> AbstractContextManager[Agent]:
-        """Return a context with a new agent, for one episode."""
+        """Return a context with a new agent, for one lift, or for the lifts of one session."""
 
 
 @runtime_checkable
@@ -63,8 +63,8 @@ class Portable(AgentSpec, Protocol):
 class Paced(Protocol):
     """An agent with time budgets that follow from the control period."""
 
-    def paced(self, period: float) -> Self:
-        """Return the same agent with the time budgets of a control period [s]."""
+    def paced(self, period: float, lifts: int = 1) -> Self:
+        """Return the same agent with the time budgets of a control period [s] and of many lifts."""
 
 
 class InProcess:
@@ -81,8 +81,10 @@ class InProcess:
 
     @contextmanager
     def agent(self) -> Iterator[Agent]:
-        """Yield a new agent for one episode, with :func:`one_thread` and its errors traced."""
+        """Yield a new agent for one session, with :func:`one_thread` and its errors traced."""
         with one_thread():
             agent = self.make()
+            if isinstance(agent, Remembering):
+                agent.begin_session()
             with one_thread():  # It may have loaded another library.
                 yield traced(agent)

@@ -3,7 +3,8 @@
 All of them, colift's own and those of other packages, are entry points:
 ``name = "module:Class"`` in the group ``colift.policies``, ``colift.humans``, ``colift.tasks`` or
 ``colift.robots``, or ``name = "module:function"`` in ``colift.suites``. A policy for one task alone
-is in the group ``colift.policies.TASK``. Colift's own are in pyproject.toml.
+is in the group ``colift.policies.TASK``, one that remembers a person in
+``colift.policies.session``. Colift's own are in pyproject.toml.
 """
 
 import functools
@@ -15,6 +16,9 @@ from colift.base.errors import InputError, Remedy
 from colift.base.near_names import near_names
 
 POLICIES: Final = "colift.policies"
+REMEMBERING: Final = "colift.policies.session"
+"""Policies that are made for sessions, and play single lifts, too."""
+
 HUMANS: Final = "colift.humans"
 SUITES: Final = "colift.suites"
 TASKS: Final = "colift.tasks"
@@ -87,9 +91,12 @@ def _registered(group: str) -> dict[str, tuple[EntryPoint, ...]]:
     return {name: tuple(each.values()) for name, each in found.items()}
 
 
-def playing(task: str) -> dict[str, EntryPoint]:
-    """Return the entry points of the policies that play a task: those for any task, and its own."""
-    groups = (POLICIES, f"{POLICIES}.{task}")
+def playing(task: str, *, sessions: bool = False) -> dict[str, EntryPoint]:
+    """Return the entry points of the policies that play a task: those for any task, and its own.
+
+    With ``sessions``, those that remember a person are among them.
+    """
+    groups = (POLICIES, f"{POLICIES}.{task}", *((REMEMBERING,) if sessions else ()))
     return {name: each for name, each in entries(POLICIES).items() if each.group in groups}
 
 
@@ -97,24 +104,24 @@ def policies_by_task() -> dict[str, tuple[str, ...]]:
     """Return the names of the policies that play one task alone, by the task's name."""
     found: dict[str, tuple[str, ...]] = {}
     for name, each in sorted(entries(POLICIES).items()):
-        if each.group != POLICIES:
+        if each.group not in (POLICIES, REMEMBERING):
             task = each.group.removeprefix(f"{POLICIES}.")
             found[task] = (*found.get(task, ()), name)
     return dict(sorted(found.items()))
 
 
-def own_policies(task: str) -> tuple[str, ...]:
-    """Return the names of colift's own policies that play a task."""
+def own_policies(task: str, *, sessions: bool = False) -> tuple[str, ...]:
+    """Return the names of colift's own policies that play a task; see :func:`playing`."""
     own = own_entries(POLICIES)
-    return tuple(name for name in playing(task) if name in own)
+    return tuple(name for name in playing(task, sessions=sessions) if name in own)
 
 
-def made_for(task: str) -> tuple[str, ...]:
+def made_for(task: str, *, sessions: bool = False) -> tuple[str, ...]:
     """Return the names of colift's own policies that are made for a task.
 
     These are those that play it alone or, of a task without such policies, all that play it.
     """
-    own = own_policies(task)
+    own = own_policies(task, sessions=sessions)
     special = tuple(name for name in policies_by_task().get(task, ()) if name in own)
     return special or own
 
@@ -126,7 +133,7 @@ def other_task(policy: str, task: str) -> str | None:
     """
     name = policy.partition(",")[0]
     entry = entries(POLICIES).get(name)
-    if entry is None or name in playing(task):
+    if entry is None or name in playing(task, sessions=True):
         return None
     return entry.group.removeprefix(f"{POLICIES}.")
 

@@ -2,22 +2,25 @@
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, get_args
 
 import numpy as np
 import typer
 from colift.base.errors import InputError
-from colift.benchmark.admission import inference
+from colift.benchmark.admission import inference, remembering
 from colift.benchmark.admission.assessment import Admission, admission_of, lifts_to_play
 from colift.benchmark.admission.control import CONTROL, CONTROL_PEOPLE, control_suite, first_people
 from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.inference import inference_of, needs_inference
+from colift.benchmark.admission.remembering import memory_of
 from colift.benchmark.admission.tuning import Tuned, tune, tunings
 from colift.benchmark.execution.progress import job_bar, workers
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import left, show, table
+from colift.benchmark.training import session_kinds
 from colift.benchmark.training.apg_settings import ApgSettings, pair_settings
-from colift.benchmark.training.told_network import write_networks
+from colift.benchmark.training.session_kinds import Kind, session_budget
+from colift.benchmark.training.told_network import write_networks, write_weights
 from colift.benchmark.training.variants import UPDATES, VARIANTS, budget
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.completion import suites
@@ -60,12 +63,13 @@ def admit_suite(
         typer.Option("--policy", metavar="NAME", help="With --tune: this policy only. Repeatable."),
     ] = None,
     updates: Annotated[
-        int,
+        int | None,
         typer.Option(
             metavar="N",
-            help="Updates of each of five networks, for a suite with conditions (extra: train).",
+            help="Updates of each network, for a suite with conditions or sessions (extra: "
+            f"train).  [default: {UPDATES}, with sessions {session_kinds.UPDATES}]",
         ),
-    ] = UPDATES,
+    ] = None,
     out: Annotated[
         Path | None,
         typer.Option(metavar="DIR", help="New folder for the weights of these networks."),
@@ -75,7 +79,8 @@ def admit_suite(
 ) -> None:
     """Test by six criteria whether the lifts of a suite need coordination.
 
-    A suite with conditions is tested for whether there is something to infer, by two criteria.
+    A suite with conditions is tested for whether there is something to infer, by two criteria,
+    and one of sessions for whether it pays to remember the person, by four.
 
     Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
     the person. Exit code 1 if the first is not shown, or is shown for the control.
@@ -91,14 +96,22 @@ def admit_suite(
     if policies:
         raise InputError("--policy is for --tune: a test of admission plays all policies")
     episodes = chosen if people is None else first_people(chosen, people)
+    if episodes.session:
+        if pairs:
+            raise InputError("--pairs is for tasks with touch; this suite has none")
+        settings = session_budget(updates or session_kinds.UPDATES)
+        _finish(_remember(episodes, settings, out, jobs), as_json=as_json)
+        return
     if needs_inference(episodes):
         if pairs:
             raise InputError("--pairs is for tasks with touch; this suite has none")
-        found = _infer(episodes, budget(updates), out, jobs)
+        found = _infer(episodes, budget(updates or UPDATES), out, jobs)
         _finish(found, as_json=as_json)
         return
-    if updates != UPDATES or out is not None:
-        raise InputError(f"--updates and --out are for suites with conditions; {suite} has none")
+    if updates is not None or out is not None:
+        raise InputError(
+            f"--updates and --out are for suites with conditions or sessions; {suite} has none"
+        )
     played = _cross_play(episodes.scenarios[0].task.name, pairs) if pairs else None
     control = None if suite == CONTROL else control_suite(people or CONTROL_PEOPLE)
     total = lifts_to_play(episodes) + (0 if control is None else lifts_to_play(control))
@@ -144,6 +157,24 @@ def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | No
         workers("admit", total, jobs) as (pool, progress),
     ):
         return inference_of(suite, networks, executor=pool, progress=progress)
+
+
+def _remember(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
+    """Train networks in the twin, and test a suite of sessions by them."""
+    if out is not None and out.exists():
+        raise InputError(f"--out must be a new folder, {out} exists")
+    require_jax()
+    from colift.benchmark.training.session_networks import train_kinds
+
+    with job_bar("networks", len(get_args(Kind)) * settings.updates) as bar:
+        networks = train_kinds(suite, settings, progress=bar.advance)
+    if out is not None:
+        write_weights({name: each._asdict() for name, each in networks.items()}, out)
+    with (
+        reported_interrupt("a suite is tested with all networks or not at all"),
+        workers("admit", remembering.lifts_to_play(suite), jobs) as (pool, progress),
+    ):
+        return memory_of(suite, networks, executor=pool, progress=progress)
 
 
 def _cross_play(task: str, count: int) -> NDArray[np.float64]:

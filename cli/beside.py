@@ -14,7 +14,7 @@ from colift.base.registry import check_plays
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import is_policy_failure
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, partner_spec
 from colift.benchmark.tables.failures import printed_lines
@@ -60,7 +60,7 @@ def others_in(played: Scenario, names: Sequence[str]) -> Iterator[Lift]:
     """
     for name in names:
         if name == HUMAN:
-            yield partner_spec(played.task), dataclasses.replace(played, partner=HUMAN)
+            yield partner_spec(played), dataclasses.replace(played, partner=HUMAN)
         else:
             check_plays(name, played.task.name)
             yield checked_policy(name), played

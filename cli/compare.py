@@ -11,7 +11,7 @@ import typer
 from colift.agents.spec import AUTO, AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.base.errors import EvaluatorFault, InputError
-from colift.base.registry import STANDARD_SUITE, check_plays, playing
+from colift.base.registry import STANDARD_SUITE, check_plays
 from colift.benchmark.comparison.captions import failures, remarks
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.compare import compare as compared
@@ -25,6 +25,7 @@ from colift.benchmark.execution.journal import Journal
 from colift.benchmark.execution.progress import progress_bar
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.rendering.layout import PAGE
+from colift.benchmark.suites.policies import playing_on
 from colift.benchmark.tables.printing import show
 from colift.cli.bundles import mention_others
 from colift.cli.completion import policies as named
@@ -40,6 +41,7 @@ from colift.cli.options import (
     Behaviours,
     ChannelName,
     Dask,
+    InSessions,
     Jobs,
     LayoutName,
     PolicyIsolation,
@@ -80,6 +82,7 @@ def compare_policies(
     seeds: Seeds = None,
     recordings: Recordings = None,
     as_recorded: AsTheyWere = False,
+    session: InSessions = False,
     robot: RobotName = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
@@ -120,13 +123,23 @@ def compare_policies(
         raise InputError("--resume needs the --out of the comparison that was interrupted")
     named = policies or []
     bundles = stored_among(named)
-    if bundles and not (suite or seeds or recordings or as_recorded or behaviour or robot):
+    if bundles and not (
+        suite or seeds or recordings or as_recorded or session or behaviour or robot
+    ):
         episodes = next(iter(bundles.values())).suite
     else:
-        episodes = chosen_suite(suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded)
+        episodes = chosen_suite(
+            suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded, session=session
+        )
     episodes = episodes.with_timing(latency, control_period)
     task = episodes.scenarios[0].task.name
-    specs, stored = _policies(named, playing(task) if everything else (), bundles, task, isolation)
+    specs, stored = _policies(
+        named,
+        playing_on(episodes) if everything else (),
+        bundles,
+        task,
+        isolation,
+    )
     for folder in bundles:
         mention_others(Path(folder))
     network = chosen_channel(channel)

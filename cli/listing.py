@@ -19,6 +19,7 @@ from colift.base.plugins import class_fault
 from colift.base.registry import (
     HUMANS,
     POLICIES,
+    REMEMBERING,
     ROBOTS,
     SUITES,
     TASKS,
@@ -91,8 +92,12 @@ def _sections(word: str, broken: list[str]) -> Iterator[Section]:
         case "policies":
             apart = policies_by_task()
             own = {*chain.from_iterable(apart.values())}
-            common = [each for each in entries(POLICIES) if each not in own]
+            remembering = [
+                each for each, entry in entries(POLICIES).items() if entry.group == REMEMBERING
+            ]
+            common = [each for each in entries(POLICIES) if each not in {*own, *remembering}]
             yield "Robot policies", _registered(POLICIES, common, broken)
+            yield "Policies that remember a person", _registered(POLICIES, remembering, broken)
             for task, names in apart.items():
                 yield f"Policies for the task {task}", _registered(POLICIES, names, broken)
         case "behaviours":

@@ -74,6 +74,14 @@ AsTheyWere = Annotated[
         "default: scaled to 0.20 m and slowed down.",
     ),
 ]
+InSessions = Annotated[
+    bool,
+    typer.Option(
+        "--session",
+        help="Play the --recordings of each person in their order, as one session: a policy may "
+        "remember the person.",
+    ),
+]
 RobotName = Annotated[
     str | None,
     typer.Option(
@@ -159,11 +167,13 @@ def chosen_suite(
     robot: str | None = None,
     *,
     as_recorded: bool = False,
+    session: bool = False,
 ) -> "Suite":
     """Return a suite by name, with the given seeds or behaviours, or the suite of recordings.
 
     With neither a name nor recordings, it is :data:`.STANDARD_SUITE`. With a robot, it plays with
-    that. Recordings are scaled and slowed down unless ``as_recorded``.
+    that. Recordings are scaled and slowed down unless ``as_recorded``, and independent unless they
+    are those of a ``session``.
 
     Raises
     ------
@@ -175,6 +185,8 @@ def chosen_suite(
     if recordings is None:
         if as_recorded:
             raise InputError("--as-recorded needs --recordings: other lifts have one form")
+        if session:
+            raise InputError("--session needs --recordings: a suite has sessions, or has none")
         suite = make_suite(name or STANDARD_SUITE)
         if behaviours:
             suite = suite.with_behaviours(list(dict.fromkeys(behaviours)))
@@ -188,7 +200,7 @@ def chosen_suite(
         raise InputError("--suite and --recordings exclude each other: recordings are a suite")
     from colift.benchmark.real_lifts.suites import real_lifts
 
-    lifts = real_lifts(recordings, as_recorded=as_recorded, robot=robot)
+    lifts = real_lifts(recordings, as_recorded=as_recorded, session=session, robot=robot)
     report_notes(recordings)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)

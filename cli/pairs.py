@@ -13,7 +13,7 @@ from colift.benchmark.pairs.summary import summarise_pairs
 from colift.benchmark.tables.printing import counted, show
 from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import AsJson, Jobs, report_left_out, try_folder
+from colift.cli.options import AsJson, Jobs, report_left_out, report_notes, try_folder
 from colift.cli.tables.pairs import pairs_table
 
 
@@ -37,7 +37,7 @@ def pairs(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(metavar="DIR", help="Folder for pairs.json, .csv and .png."),
+        typer.Option(metavar="DIR", help="Folder for pairs.json, .csv, .png, .svg and .pdf."),
     ] = None,
     jobs: Jobs = None,
     as_json: AsJson = False,
@@ -51,6 +51,7 @@ def pairs(
     if out is not None:
         try_folder("--out", out)
     found = recorded_pairs(file, length)
+    report_notes(file)
     report_left_out(file.name, dict.fromkeys(found.without, "the other end was not recorded"))
     simulated = _simulated(found, file.name, jobs)
     summary = summarise_pairs(found, file.name, simulated)

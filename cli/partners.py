@@ -45,7 +45,7 @@ def partners(first: str = FIRST, isolation: str = AUTO) -> Partners:
     chosen = checked_policy(first, isolation)
     _check_lifts(chosen)
     found: dict[str, AgentSpec] = {chosen.name: chosen}
-    for name in playing(LEVEL.name):
+    for name in playing(LEVEL.name, sessions=True):
         if name in found:
             continue
         try:

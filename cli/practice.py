@@ -10,9 +10,9 @@ from typing import Annotated
 
 import typer
 from colift.base.errors import EvaluatorFault, InputError
-from colift.base.registry import made_for
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.references.catalogue import suite_references
+from colift.benchmark.suites.policies import made_for_suite
 from colift.benchmark.tables.printing import show, table
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Dask, Jobs, executor
@@ -73,7 +73,7 @@ def practice(
 
 def _chosen(names: list[str] | None, season: Season) -> list[str]:
     """Return the policies to evaluate in a season: the named ones, or all made for its task."""
-    own = made_for(season.suite.scenarios[0].task.name)
+    own = made_for_suite(season.suite)
     unknown = [name for name in names or () if name not in own]
     if unknown:
         raise InputError(

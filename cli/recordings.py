@@ -130,7 +130,7 @@ def make_recordings(
         up=_axis(up),
         unit=unit,
         metre=_length(unit),
-        rate=_positive("--rate", rate),
+        rate=None if rate is None else _positive("--rate", rate),
         second=_second(time_unit),
         between=_part(between),
         fill=_not_negative("--fill", fill),
@@ -138,7 +138,7 @@ def make_recordings(
         leave_out=leave_out,
         cut=Cut(
             phases=_phases(phases),
-            least=_positive("--rise", rise) or rise,
+            least=_positive("--rise", rise),
             pause=_not_negative("--pause", pause),
             margin=_not_negative("--margin", margin),
         ),
@@ -263,8 +263,8 @@ def _pattern(text: str | None) -> str | None:
     return text
 
 
-def _positive(option: str, value: float | None) -> float | None:
-    if value is not None and not 0.0 < value < float("inf"):
+def _positive(option: str, value: float) -> float:
+    if not 0.0 < value < float("inf"):
         raise InputError(f"{option} must be positive, got {value:g}")
     return value
 

@@ -2,7 +2,7 @@
 
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
@@ -35,6 +35,7 @@ from colift.cli.options import (
 
 if TYPE_CHECKING:
     from colift.benchmark.rendering.film import Look
+    from colift.leaderboard.replays.replay import Ghost
 
 HTML: Final = ".html"
 
@@ -180,22 +181,20 @@ def _write(
     out: Path, episode: Episode, played: Scenario, name: str, look: "Look", layout: Layout | None
 ) -> None:
     from colift.benchmark.rendering.lift_file import pictures_in, write_lift
+    from colift.leaderboard.replays.replay import play_ghost
 
     if out.suffix == HTML:
-        _write_page(out, [(episode, played)], name)
+        _write_page(out, [(episode, played, play_ghost(played, episode.seed))], name)
         return
     with progress_bar("drawing", pictures_in(out, episode, look)) as progress:
         write_lift(out, episode, played, name, look=look, layout=layout, drawn=progress)
 
 
-def _write_page(out: Path, lifts: Sequence[tuple[Episode, Scenario]], name: str) -> None:
+def _write_page(out: Path, lifts: Iterable[tuple[Episode, Scenario, "Ghost"]], name: str) -> None:
     from colift.leaderboard.replays.html import replay_page
-    from colift.leaderboard.replays.replay import play_ghost, replay_content
+    from colift.leaderboard.replays.replay import replay_content
 
-    replays = [
-        replay_content(episode, played, play_ghost(played, episode.seed), policy=name)
-        for episode, played in lifts
-    ]
+    replays = [replay_content(*each, policy=name) for each in lifts]
     out.write_text(replay_page(replays), encoding="utf-8")
 
 
@@ -210,6 +209,7 @@ def _render_bundle(
     """Draw the worst lifts of a bundle, and report what does not follow from their actions."""
     from colift.benchmark.bundle.present import read_present
     from colift.benchmark.verification.replaying import replayed_lifts
+    from colift.leaderboard.replays.replay import play_ghosts
 
     for name in OF_A_LIFT:
         source = context.get_parameter_source(name)
@@ -225,6 +225,7 @@ def _render_bundle(
     if not rows:
         failure = run.episodes[0].failure
         raise InputError(f"no lift of {folder} has a frame to draw; the first ended: {failure}")
+    places = [bundle.indices[row] for row in rows]
     files = _files(out, [run.episodes[row] for row in rows])
     with reported_interrupt(f"{out} is not drawn"):
         lifts = [*replayed_lifts(bundle, run.suite, rows)]
@@ -232,7 +233,13 @@ def _render_bundle(
             for finding in lift.findings[:1]:
                 print(f"note: it does not follow from the actions: {finding}", file=sys.stderr)
         if out.suffix == HTML:
-            _write_page(out, [(each.episode, each.scenario) for each in lifts], run.policy)
+            ghosts = play_ghosts(run.suite, places)
+            shown = zip(lifts, places, strict=True)
+            _write_page(
+                out,
+                [(lift.episode, lift.scenario, ghosts[place]) for lift, place in shown],
+                run.policy,
+            )
         for lift, file in zip(lifts, files, strict=True):
             if out.suffix != HTML:
                 _write(file, lift.episode, lift.scenario, run.policy, look, layout)

@@ -13,6 +13,7 @@ from colift.cli.options import (
     Behaviours,
     ChannelName,
     Dask,
+    InSessions,
     Jobs,
     PolicyIsolation,
     PolicyName,
@@ -33,6 +34,7 @@ def run(
     seeds: Seeds = None,
     recordings: Recordings = None,
     as_recorded: AsTheyWere = False,
+    session: InSessions = False,
     robot: RobotName = None,
     latency: Annotated[float | None, LATENCY_OPTION] = None,
     control_period: Annotated[float | None, PERIOD_OPTION] = None,
@@ -62,7 +64,7 @@ def run(
     from colift.cli.evaluation import Bundle, evaluate
 
     episodes = chosen_suite(
-        suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded
+        suite, seeds, recordings, behaviour, robot, as_recorded=as_recorded, session=session
     ).with_timing(latency, control_period)
     network = chosen_channel(channel)
     bundle = Bundle(out, force=force, resume=resume)

@@ -3,10 +3,10 @@
 from typing import Annotated
 
 import typer
-from colift.base.registry import made_for
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.baselines import reference_label
+from colift.benchmark.suites.policies import made_for_suite
 from colift.cli.board_options import BOARD, BoardFolder, ExistingBoard, Why, opened_board
 from colift.cli.options import Jobs
 from colift.leaderboard.core.board import LOCAL
@@ -38,7 +38,7 @@ def begin(
         print(f"season {name} on {season.suite.name} takes submissions from now on")
         print(f"commitment to its secret: {season.commitment}")
         if own:
-            names = made_for(season.suite.scenarios[0].task.name)
+            names = made_for_suite(season.suite)
             jobs = [Queue(opened).enqueue_builtin(builtin_entrant(each)) for each in names]
             print(f"{len(jobs)} policies of the project are queued")
             print(f"Next: colift worker --board {board} --once")

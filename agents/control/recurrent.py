@@ -177,8 +177,8 @@ def network_of(arrays: Any, source: str, inputs: int = INPUTS, outputs: int = 1)
     return GatedNetwork(**found)
 
 
-def read_gated(file: Path | Traversable) -> GatedNetwork:
-    """Return the network of an ``.npz`` file.
+def read_gated(file: Path | Traversable, inputs: int = INPUTS) -> GatedNetwork:
+    """Return the network of an ``.npz`` file, with so many inputs.
 
     Raises
     ------
@@ -187,7 +187,7 @@ def read_gated(file: Path | Traversable) -> GatedNetwork:
     """
     try:
         with np.load(io.BytesIO(file.read_bytes()), allow_pickle=False) as arrays:
-            return network_of(arrays, file.name)
+            return network_of(arrays, file.name, inputs)
     except (OSError, ValueError, EOFError, zipfile.BadZipFile) as error:
         raise InputError(f"{file.name}: not an .npz file of weights: {error}") from None
 

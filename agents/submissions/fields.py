@@ -27,9 +27,11 @@ def name(value: Any) -> str:
     if not (isinstance(value, str) and NAME.fullmatch(value) and value == value.strip()):
         raise _wrong(value, "1 to 40 letters, digits, spaces and . _ + -, a letter or digit first")
     taken = {*own_entries(POLICIES), "human_human"}
-    if value.lower().replace(" ", "_").replace("-", "_") in taken:
+    plain = value.lower().replace(" ", "_").replace("-", "_")
+    if plain in taken:
         raise InputError(
-            f"must differ from colift's own names ({', '.join(sorted(taken))}); got {shown(value)}"
+            f"must differ from colift's own names, which 'colift list policies' shows; got "
+            f"{shown(value)}"
         )
     return value
 

@@ -4,16 +4,14 @@ A suite whose lifts are drawn under conditions does not claim that its lifts nee
 that a robot has to find out what it is not told. Networks of one kind and one budget show it.
 """
 
-import math
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from typing import Final
 
-import numpy as np
 from colift.benchmark.admission.assessment import Admission
 from colift.benchmark.admission.criteria import INFERENCE, Criterion
-from colift.benchmark.admission.jackknife import ratio_interval
 from colift.benchmark.admission.played import Played
+from colift.benchmark.admission.ratio import ratio_criterion
 from colift.benchmark.references.oracle import ORACLE, oracle_run
 from colift.benchmark.references.told import play_told
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
@@ -75,7 +73,7 @@ def inference_of(
         digest=suite.digest,
         means=played.means,
         criteria=(
-            _ratio(
+            ratio_criterion(
                 played,
                 USUAL,
                 UNTOLD,
@@ -89,7 +87,7 @@ def inference_of(
                 ),
                 least=SPECIALIST,
             ),
-            _ratio(
+            ratio_criterion(
                 played,
                 TOLD_BOTH,
                 UNTOLD,
@@ -106,40 +104,4 @@ def inference_of(
         ),
         fragile=(),
         control=None,
-    )
-
-
-def _ratio(
-    played: Played,
-    one: str,
-    other: str,
-    stated: Criterion,
-    *,
-    least: float | None = None,
-    most: float | None = None,
-) -> Criterion:
-    """Return a criterion of the ratio of two networks' errors, with its interval over people.
-
-    The ratio is the geometric mean over lifts, like ``vs_human``: errors with the quickest
-    behaviours are three times those with others, and would be most of a mean. The criterion passes
-    if the ratio is within the limit, and the interval has no 1 in it.
-    """
-    logs = np.log(played.part((one, other)).errors)
-    by_person = (logs[0] - logs[1]).mean(axis=-1)
-    figure = math.exp(by_person.mean())
-    left = [math.exp(np.delete(by_person, person).mean()) for person in range(len(by_person))]
-    low, high = ratio_interval(figure, left)
-    first, second = (played.means[name] for name in (one, other))
-    within = (least is None or (figure >= least and low > 1.0)) and (
-        most is None or (figure <= most and high < 1.0)
-    )
-    return Criterion(
-        letter=stated.letter,
-        claim=stated.claim,
-        what=stated.what,
-        bar=stated.bar,
-        detail=f"{one} {first:.2f} mm, {other} {second:.2f} mm",
-        figure=figure,
-        ci95=(low, high),
-        passed=within,
     )

@@ -13,6 +13,7 @@ from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.episode.metric import SCORING
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import HUMAN_HUMAN
+from colift.benchmark.results.curve import SessionCurve, session_curve
 from colift.benchmark.results.goals import GoalScores, goal_scores
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.results.strata import StratumScore, stratum_scores
@@ -43,6 +44,8 @@ class Results:
     """Other agents on the same episodes, without a channel."""
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
+    session: SessionCurve | None = None
+    """The errors lift by lift, if the suite has sessions and all lifts were played."""
     goals: GoalScores | None = None
     """How well people reached the goals of live lifts; None in other lifts, and in bundles that
     do not claim it."""
@@ -64,6 +67,8 @@ class Results:
         }
         if self.channel is not None:
             content["channel"] = recorded(self.channel)
+        if self.session is not None:
+            content["session"] = self.session.plain()
         if self.goals is not None:
             content["goals"] = self.goals.plain()
         return content
@@ -105,6 +110,7 @@ def results(run: Run, baselines: Mapping[str, ScoreTable]) -> Results:
         strata=stratum_scores(scores, human),
         baselines=baselines,
         channel=run.channel,
+        session=session_curve(run, scores, human),
         goals=goal_scores(
             run.suite, {episode.trial for episode in run.episodes if episode.failure is not None}
         ),

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Final, Self
 
 from colift.agents.humans import AsRecorded, Behaviour, Recorded, Recording, load_recordings
+from colift.agents.humans.recorded_series import RecordedSeries, series_of
 from colift.agents.humans.recordings import COLUMNS, PERSON
 from colift.base.errors import InputError
 from colift.base.registry import UnknownNameError
@@ -23,9 +24,10 @@ from colift.benchmark.episode.metric import Metrics
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.suites.catalogue import (
     AS_RECORDED,
-    OF_RECORDINGS,
+    FROM_FILES,
     PLAYED,
     RECORDED,
+    SERIES,
     make_scenario,
     make_subject,
     make_task,
@@ -50,7 +52,7 @@ FROM_NAMES: Final = (
 CONDITIONS: Final = "conditions"
 """The key of the conditions; without it there are none."""
 
-FILES: Final = {**dict.fromkeys(OF_RECORDINGS, RECORDINGS), PLAYED: INPUTS}
+FILES: Final = {**dict.fromkeys(FROM_FILES, RECORDINGS), PLAYED: INPUTS}
 """The file with the trials of a behaviour."""
 
 
@@ -114,9 +116,12 @@ class Recipe:
         """
         humans: dict[tuple[str, str], Behaviour] = {}
         if self.recordings is not None:
-            for recording in _load(self.recordings):
+            recordings = _load(self.recordings)
+            for recording in recordings:
                 humans[RECORDED, recording.name] = Recorded(recording=recording)
                 humans[AS_RECORDED, recording.name] = AsRecorded(recording=recording)
+            for name, series in series_of(recordings).items():
+                humans[SERIES, name] = series
         if self.inputs is not None:
             played = parse_inputs(self.inputs, len(self.scenarios))
             trials = [trial for _, _, trial in self.scenarios]
@@ -266,11 +271,11 @@ def _names(name: str) -> tuple[str, str, str]:
 
 def _recordings(scenarios: tuple[Scenario, ...]) -> bytes | None:
     """Return the recordings of the scenarios as a CSV file; None if there are none."""
-    recordings = {
-        scenario.human.recording.name: scenario.human.recording
-        for scenario in scenarios
-        if isinstance(scenario.human, Recorded)
-    }
+    recordings: dict[str, Recording] = {}
+    for human in (scenario.human for scenario in scenarios):
+        if isinstance(human, Recorded):
+            lifts = human.lifts if isinstance(human, RecordedSeries) else (human.recording,)
+            recordings |= {recording.name: recording for recording in lifts}
     if not recordings:
         return None
     text = io.StringIO()

@@ -28,7 +28,7 @@ INTERVAL: Final[Schema] = {
 def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     """Return the JSON Schema of ``results.json``, the content of :meth:`.Results.plain`.
 
-    Every key except ``channel`` and ``goals`` is required, and no other key is allowed.
+    Every key except ``channel``, ``session`` and ``goals`` is required; no other is allowed.
 
     Parameters
     ----------
@@ -124,6 +124,26 @@ def results_schema(metrics: Metrics = LEVEL.metrics) -> Schema:
     schema["properties"]["channel"] = _object(
         {"down": _link(), "up": _link(), "code": _of(TEXT, "Hash of what a channel does.")},
         "The channel to the policy; only if there was one.",
+    )
+    curve = {"type": "array", "items": estimate}
+    schema["properties"]["session"] = _object(
+        {
+            "counted": _of(COUNT, "Lifts at the end of a session that count."),
+            "rmse_mm": _of(curve, "Mean RMSE of each lift of a session [mm]."),
+            "human_human_rmse_mm": _of(
+                {"anyOf": [curve, {"type": "null"}]},
+                "That of two people; null without this baseline.",
+            ),
+            "change_mm": _of(
+                {"anyOf": [estimate, {"type": "null"}]},
+                "Rise of the RMSE in the lift of a changed habit [mm]; null if nobody has one.",
+            ),
+            "trust": _of(
+                curve,
+                "Mean trust of the people after each lift, from 0 to 1; empty if it is not known.",
+            ),
+        },
+        "The errors lift by lift; only of suites with sessions.",
     )
     schema["properties"]["goals"] = _object(
         {

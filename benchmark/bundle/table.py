@@ -12,7 +12,7 @@ from colift.benchmark.bundle.files import EPISODES, TRACES
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import LEADING, Metrics, Scores, reached
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.suites.catalogue import OF_RECORDINGS
+from colift.benchmark.suites.catalogue import FROM_FILES
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import TREATED, Treatments, treatments
 
@@ -34,7 +34,7 @@ def one_line(text: str) -> str:
 
 def treated(suite: Suite) -> Treatments:
     """Return the treatments of a suite's recordings, by their trials as the table has them."""
-    return {one_line(trial): each for trial, each in treatments(suite).items()}
+    return {(one_line(trial), seed): each for (trial, seed), each in treatments(suite).items()}
 
 
 def column_names(
@@ -91,8 +91,8 @@ def table_row(
     if human_human_mm is not None:
         row[HUMAN_HUMAN_RMSE] = human_human_mm
     if played:
-        of_file = episode.behaviour in OF_RECORDINGS
-        found = played.get(one_line(episode.trial)) if of_file else None
+        of_file = episode.behaviour in FROM_FILES
+        found = played.get((one_line(episode.trial), episode.seed)) if of_file else None
         row |= dict.fromkeys(TREATED, "") if found is None else found.plain()
     return row
 

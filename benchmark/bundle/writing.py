@@ -74,7 +74,7 @@ def write_bundle(
             run.episodes,
             run.suite.metrics,
             treated(run.suite),
-            None if human_human is None else human_human.rmse_mm,
+            None if human_human is None else human_human.lifts_at(run.places),
         ),
     }
     if recipe is not None and recipe.recordings is not None:
@@ -88,7 +88,7 @@ def write_bundle(
         for name, data in files.items():
             (made / name).write_bytes(data)
         with (made / TRACES).open("w+b") as file:
-            traces = trace_arrays(lambda: (each.trace for each in run.episodes), indices(run))
+            traces = trace_arrays(lambda: (each.trace for each in run.episodes), run.places)
             write_arrays(file, traces)
         manifest = {
             "format": FORMAT,
@@ -102,20 +102,6 @@ def write_bundle(
 def _sha256(path: Path) -> str:
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def indices(run: Run) -> list[int]:
-    """Return the place in the suite of each episode of a run, counted from 0."""
-    names = [
-        (scenario.behaviour, scenario.subject.name, scenario.trial, seed)
-        for scenario in run.suite.scenarios
-        for seed in run.suite.seeds
-    ]
-    found: list[int] = []
-    for episode in run.episodes:
-        name = (episode.behaviour, episode.subject, episode.trial, episode.seed)
-        found.append(names.index(name, found[-1] + 1 if found else 0))
-    return found
 
 
 def kept_logs(episodes: Sequence[Episode]) -> dict[str, str]:

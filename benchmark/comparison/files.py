@@ -13,6 +13,7 @@ from colift.benchmark.channels.recorded import recorded
 from colift.benchmark.comparison.captions import picture_axis, picture_title
 from colift.benchmark.comparison.compare import Comparison
 from colift.benchmark.comparison.html import html_page
+from colift.benchmark.comparison.lifts_figure import lifts_figure
 from colift.benchmark.comparison.ranking import RankedPolicy, Ranking
 from colift.benchmark.comparison.ranks_figure import ranks_figure
 from colift.benchmark.comparison.scatter.figure import scatter_figure, scene_size
@@ -153,9 +154,9 @@ def _row(ranking: Ranking, ranked: RankedPolicy) -> Iterator[tuple[str, object]]
 def write_comparison(folder: Path, comparison: Comparison, layout: Layout = PAGE) -> None:
     """Write a comparison into a folder.
 
-    These are ``compare.html``, ``compare.json`` and ``compare.csv``; the figures ``compare`` and
-    ``ranks``, as PNG, SVG and PDF; the table ``compare.tex``, and ``compare.bib``, what to cite.
-    Equal comparisons give equal files, up to the step times.
+    These are ``compare.html``, ``compare.json`` and ``compare.csv``; the figures ``compare``,
+    ``ranks`` and, with sessions, ``lifts``, as PNG, SVG and PDF; the table ``compare.tex``, and
+    ``compare.bib``, what to cite. Equal comparisons give equal files, up to the step times.
 
     Parameters
     ----------
@@ -196,7 +197,10 @@ def comparison_figures(comparison: Comparison, layout: Layout) -> dict[str, Figu
         title=() if layout.height is None else [picture_title(comparison)],
     )
     with drawn_for(layout):
-        return {
+        figures = {
             "compare": scatter_figure(scene, layout),
             "ranks": ranks_figure(comparison, layout),
         }
+        if comparison.results.suite.session:
+            figures["lifts"] = lifts_figure(comparison, layout)
+        return figures

@@ -1,26 +1,21 @@
 """Units of work, a few lifts each, played alone or on any executor."""
 
-import contextlib
 import dataclasses
 import itertools
-import time
 from collections.abc import Container, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from dataclasses import dataclass
 from typing import Final
 
-from colift.agents.agent import Action, Agent, Observation
-from colift.agents.spec import AgentSpec, Paced
+from colift.agents.spec import AgentSpec
 from colift.base.errors import EvaluatorFault, InputError, error_text
 from colift.benchmark.channels import Channel
-from colift.benchmark.channels.teleoperated import teleoperated
-from colift.benchmark.episode.blame import blaming_plugins, check_episode, check_start
 from colift.benchmark.episode.kept_world import drop_kept_world
-from colift.benchmark.episode.loop import Episode, run_episode
-from colift.benchmark.episode.scenario import Scenario
+from colift.benchmark.episode.loop import Episode
+from colift.benchmark.execution.playing import play, play_session
+from colift.benchmark.execution.sessions import is_session
 from colift.benchmark.suites.hidden import keyed
 from colift.benchmark.suites.suite import Due, Suite, alike
-from colift.benchmark.tasks.worlds import played_lift
 
 LIFTS_PER_BATCH: Final = 5
 """Lifts that a worker plays at a time: few enough for visible progress."""
@@ -28,15 +23,24 @@ LIFTS_PER_BATCH: Final = 5
 
 @dataclass(frozen=True, kw_only=True)
 class Batch:
-    """A worker's unit of work: some of a suite's lifts."""
+    """A worker's unit of work: some of a suite's lifts, or a session."""
 
     policy: AgentSpec
     lifts: tuple[Due, ...]
+    done: frozenset[int] = frozenset()
+    """Places of lifts of a session that are known: they are played again for what is remembered of
+    them, and not returned."""
     channel: Channel | None = None
     """The channel between the robot and the policy; None if there is none."""
 
     def play(self) -> Iterator[tuple[int, Episode]]:
-        """Yield the place and the episode of each lift; see :func:`play`."""
+        """Yield the place and the episode of each lift; see :func:`.play`."""
+        if is_session(self.lifts):
+            episodes = play_session(self.policy, self.lifts, self.channel)
+            for due, episode in zip(self.lifts, episodes, strict=True):
+                if due.place not in self.done:
+                    yield due.place, episode
+            return
         for scenario, some in alike(self.lifts):
             seeds = tuple(due.seed for due in some)
             episodes = play(self.policy, scenario, seeds, self.channel)
@@ -46,73 +50,18 @@ class Batch:
         """Return all of :meth:`play`; worker processes run this."""
         return list(self.play())
 
+    @property
+    def size(self) -> int:
+        """Number of the lifts that it returns."""
+        return len(self.lifts) - len(self.done)
+
     def without(self, done: Container[int]) -> "Batch":
-        """Return the batch without the places in ``done``."""
+        """Return the batch without the places in ``done``; a session is always played whole."""
+        if is_session(self.lifts):
+            known = frozenset(due.place for due in self.lifts if due.place in done)
+            return dataclasses.replace(self, done=self.done | known)
         left = tuple(due for due in self.lifts if due.place not in done)
         return dataclasses.replace(self, lifts=left)
-
-
-def play(
-    policy: AgentSpec,
-    scenario: Scenario,
-    seeds: tuple[int, ...],
-    channel: Channel | None = None,
-) -> Iterator[Episode]:
-    """Play the scenario with each seed, with a new policy object for each episode.
-
-    A channel is outside the policy's sandbox.
-
-    Raises
-    ------
-    EvaluatorFault
-        If the machine failed.
-    InputError
-        If the task or the behaviour of another package failed, or broke one of its rules.
-    """
-    if isinstance(policy, Paced):
-        policy = policy.paced(scenario.control_period)
-    with contextlib.ExitStack() as kept:
-        with blaming_plugins(scenario, seeds[0]):
-            lift = kept.enter_context(played_lift(scenario))
-            check_start(lift, seeds[0])
-        for seed in seeds:
-            with contextlib.ExitStack() as stack:
-                begin = time.perf_counter()
-                agent = entered(stack, policy)
-                made = time.perf_counter() - begin
-                if channel is not None:
-                    agent = teleoperated(agent, channel, scenario, seed)
-                with blaming_plugins(scenario, seed):
-                    episode = run_episode(lift, agent, seed)
-                    check_episode(lift, episode)
-                taken = made + episode.policy_time
-                yield dataclasses.replace(episode, policy_time=taken)
-
-
-class _Unmade:
-    """Stands in for an agent whose constructor failed: fails in the same way at the reset."""
-
-    def __init__(self, error: BaseException) -> None:
-        self._error = error
-
-    def reset(self, seed: int) -> None:
-        raise self._error
-
-    def act(self, observation: Observation) -> Action:
-        raise self._error
-
-
-def entered(stack: contextlib.ExitStack, policy: AgentSpec) -> Agent:
-    """Return a new agent of a policy; leaving the stack closes it.
-
-    The agent of a policy that cannot be made fails at its reset, with the same error.
-    """
-    try:
-        return stack.enter_context(policy.agent())
-    except EvaluatorFault:
-        raise
-    except (Exception, SystemExit) as error:
-        return _Unmade(error)
 
 
 def batches(
@@ -122,11 +71,21 @@ def batches(
     channel: Channel | None = None,
 ) -> Iterator[Batch]:
     """Yield the rest of a suite: all episodes but those with a place in ``done``."""
-    for first in range(0, suite.size, LIFTS_PER_BATCH):
-        places = range(first, min(first + LIFTS_PER_BATCH, suite.size))
-        lifts = tuple(suite.at(index) for index in places if index not in done)
-        if lifts:
-            yield Batch(policy=policy, lifts=lifts, channel=channel)
+    for batch in _divided(policy, suite, channel, LIFTS_PER_BATCH):
+        left = batch.without(done)
+        if left.size:
+            yield left
+
+
+def _divided(
+    policy: AgentSpec, suite: Suite, channel: Channel | None, most: int
+) -> Iterator[Batch]:
+    """Yield all of a suite, in its order: a session at a time, or at most some lifts."""
+    size = suite.session or most
+    for first in range(0, suite.size, size):
+        places = range(first, min(first + size, suite.size))
+        lifts = tuple(suite.at(index) for index in places)
+        yield Batch(policy=policy, lifts=lifts, channel=channel)
 
 
 def shuffled_batches(
@@ -136,18 +95,20 @@ def shuffled_batches(
     done: Container[int] = (),
     channel: Channel | None = None,
 ) -> Iterator[Batch]:
-    """Yield the rest of a suite, one episode per batch, in an order that follows from a secret.
+    """Yield the rest of a suite, a lift or a session per batch, in an order by a secret.
 
     The position of an episode then does not reveal which one it is, and the order for one policy
     reveals nothing about the order for another.
     """
     labels = ("order", policy.name, policy.digest(), suite.digest)
 
-    def lot(index: int) -> bytes:
-        return keyed(secret, *labels, index)
+    def lot(batch: Batch) -> bytes:
+        return keyed(secret, *labels, batch.lifts[0].place)
 
-    for index in sorted((index for index in range(suite.size) if index not in done), key=lot):
-        yield Batch(policy=policy, lifts=(suite.at(index),), channel=channel)
+    for batch in sorted(_divided(policy, suite, channel, 1), key=lot):
+        left = batch.without(done)
+        if left.size:
+            yield left
 
 
 ATTEMPTS: Final = 3
@@ -211,7 +172,7 @@ def _alone(batches: Iterable[Batch], faults: Faults) -> Iterator[tuple[int, Epis
         for batch in batches:
             done: set[int] = set()
             attempt = 1
-            while len(done) < len(batch.lifts):
+            while len(done) < batch.size:
                 try:
                     for index, episode in batch.without(done).play():
                         done.add(index)

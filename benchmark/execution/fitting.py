@@ -11,7 +11,7 @@ from colift.benchmark.episode.blame import blaming_plugins, check_start
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import Turns
-from colift.benchmark.execution.batches import entered
+from colift.benchmark.execution.playing import entered
 from colift.benchmark.suites.catalogue import make_scenario
 
 SEED: Final = 0

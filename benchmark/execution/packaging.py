@@ -42,9 +42,9 @@ class PackagedPolicy:
     def check(self) -> None:
         """Do nothing: the policy was checked before it was packaged."""
 
-    def paced(self, period: float) -> "PackagedPolicy":
-        """Return the same policy with the time budgets of a control period [s]."""
-        spec = self.spec.paced(period) if isinstance(self.spec, Paced) else self.spec
+    def paced(self, period: float, lifts: int = 1) -> "PackagedPolicy":
+        """Return the same, with the time budgets of a control period [s] and of many lifts."""
+        spec = self.spec.paced(period, lifts) if isinstance(self.spec, Paced) else self.spec
         return dataclasses.replace(self, spec=spec)
 
     @contextmanager

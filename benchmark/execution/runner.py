@@ -32,6 +32,22 @@ class Run:
     """The channel between the robot and the policy; None if there is none."""
 
     @property
+    def places(self) -> list[int]:
+        """The place in the suite of each episode, counted from 0."""
+        if self.complete:
+            return list(range(self.suite.size))
+        names = [
+            (scenario.behaviour, scenario.subject.name, scenario.trial, seed)
+            for scenario in self.suite.scenarios
+            for seed in self.suite.seeds
+        ]
+        found: list[int] = []
+        for episode in self.episodes:
+            name = (episode.behaviour, episode.subject, episode.trial, episode.seed)
+            found.append(names.index(name, found[-1] + 1 if found else 0))
+        return found
+
+    @property
     def complete(self) -> bool:
         """Whether every episode of the suite is there."""
         return len(self.episodes) == self.suite.size

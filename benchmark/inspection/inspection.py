@@ -8,7 +8,6 @@ from pathlib import Path
 
 from colift.base.errors import InputError
 from colift.benchmark.bundle import Results
-from colift.benchmark.bundle.writing import indices
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.runner import Run, finished
 from colift.benchmark.inspection import WORST
@@ -99,7 +98,7 @@ def inspect_run(
         raise InputError(f"worst must be 1 or more, got {worst}")
     lifts = tuple(scored_lifts(run, results.baselines.get(HUMAN_HUMAN)))
     rows = worst_first(lift.rmse_mm for lift in lifts)[:worst]
-    played = [run.suite.at(place) for place in indices(run)]
+    played = [run.suite.at(place) for place in run.places]
     events = {due.place: events_of(due.scenario, due.seed) for due in played}
     kept = {played[row].place for row in rows}
     people, theirs = _beside(run.suite, events, kept, executor, progress)
@@ -147,7 +146,7 @@ def _beside(
     found: dict[int, Episode] = {}
     errors: list[PhaseError] = []
     lifts = finished(
-        partner_spec(suite.scenarios[0].task),
+        partner_spec(suite.scenarios[0]),
         suite.with_partner("human"),
         without={*range(suite.size)} - events.keys(),
         executor=executor,

@@ -13,6 +13,7 @@ from colift.benchmark.rendering.axis import make_axis
 from colift.benchmark.rendering.film import still_picture
 from colift.benchmark.rendering.formats import number, words
 from colift.benchmark.rendering.page import Cell, Row, render, style
+from colift.benchmark.results.curve import session_axis
 from colift.benchmark.results.headline import headline
 from colift.benchmark.results.lifts import ScoredLift
 from markupsafe import Markup
@@ -68,6 +69,8 @@ def inspection_page(found: Findings, drawn: Callable[[int], None] = lambda pictu
             [each.rmse_mm for each in found.parts],
             [mark for each in found.parts for mark in each.marks],
         ),
+        session=found.results.session,
+        session_axis=session_axis(found.results.session),
         phases_caption=captions.phases_caption(found),
         phases_header=captions.phases_head(found),
         phases=_rows(found.phases),

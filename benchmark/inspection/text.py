@@ -20,6 +20,7 @@ from colift.benchmark.rendering.formats import words
 from colift.benchmark.results.headline import headline
 from colift.benchmark.results.parts import PartScore
 from colift.benchmark.tables.printing import Cell, counted, left, optional_number, styled, table
+from colift.benchmark.tables.results_table import curve_lines
 from rich.console import RenderableType
 from rich.table import Table
 
@@ -37,6 +38,8 @@ def inspection_text(found: Findings) -> Iterator[RenderableType]:
     if shown(found) != "error":
         yield "\n".join([*scored, ""])
     yield _parts_table(found.parts)
+    if found.results.session is not None:
+        yield "\n".join(curve_lines(found.results.session))
     if found.phases:
         yield _phases_table(found)
     yield provenance(found)

@@ -60,7 +60,7 @@ def pairs_csv(summary: PairsSummary) -> str:
 
 
 def write_pairs(folder: Path, pairs: RecordedPairs, summary: PairsSummary) -> None:
-    """Write ``pairs.json``, ``pairs.csv`` and ``pairs.png`` into a folder.
+    """Write ``pairs.json``, ``pairs.csv``, and the picture as PNG, SVG and PDF into a folder.
 
     Raises
     ------
@@ -69,9 +69,13 @@ def write_pairs(folder: Path, pairs: RecordedPairs, summary: PairsSummary) -> No
     """
     # matplotlib is slow to load.
     from colift.benchmark.pairs.picture import pairs_figure
+    from colift.benchmark.rendering.figures import drawn_for, write_all
+    from colift.benchmark.rendering.layout import PAGE
 
     folder.mkdir(parents=True, exist_ok=True)
     content = json.dumps(pairs_json(summary), indent=2, allow_nan=False) + "\n"
     (folder / "pairs.json").write_text(content, encoding="utf-8")
     (folder / "pairs.csv").write_text(pairs_csv(summary), encoding="utf-8")
-    pairs_figure(pairs, summary).savefig(folder / "pairs.png", metadata={"Software": None})
+    with drawn_for(PAGE):
+        figure = pairs_figure(pairs, summary)
+    write_all(folder, "pairs", figure, f"Recorded pairs of {summary.source}, and simulated ones")

@@ -14,6 +14,7 @@ from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run, run_suite
+from colift.benchmark.paper.practice import PRACTICE, PracticeRuns, practice_runs
 from colift.benchmark.paper.table_one import FORGETTING_FACTORS
 from colift.benchmark.paper.watched import SampledLift, sampled_lifts, watched_blend
 from colift.benchmark.results.baselines import human_human_run
@@ -42,6 +43,7 @@ class Effort:
     torque: int = 10
     forgetting: int = 4
     timing: int = 2
+    practice: int = 10
     periods: tuple[float, ...] = (0.02, 0.05, 0.1)
     """Control periods to compare [s]."""
     latencies: tuple[float, ...] = (0.0, 0.05, 0.1, 0.15)
@@ -107,6 +109,8 @@ class Evidence:
     """Some of Table I's lifts with prediction, by forgetting factor."""
     timing: Mapping[TimingSetting, Run]
     """Some of Table I's lifts, by policy, control period and latency."""
+    practice: Mapping[str, PracticeRuns]
+    """Some of Table I's lifts before and after practice, by policy: ``reactive`` and ``blend``."""
     learning: list[LearningTrial]
     parameters: PredictorParameters
     """Parameters of the predictor of the blend policy."""
@@ -186,6 +190,10 @@ def collect_evidence(
             )
             for timing in timings
         },
+        practice={
+            name: practice_runs(policy, first_seeds(suite, effort.practice), run)
+            for name, policy in (("reactive", REACTIVE), ("blend", watched))
+        },
         learning=_learn(effort.learning_trials, suite.seeds[0], executor, progress),
         parameters=parameters,
     )
@@ -217,8 +225,9 @@ def lift_count(suite: Suite, effort: Effort | None = None) -> int:
         (2, effort.torque),
         (len(FORGETTING_FACTORS), effort.forgetting),
         (settings, effort.timing),
+        (4, effort.practice),
     )
-    lifts = sum(times * min(count, seeds) for times, count in repeated)
+    lifts = sum(times * min(count, seeds) for times, count in repeated) + 2 * PRACTICE
     return subjects * lifts + effort.learning_trials
 
 

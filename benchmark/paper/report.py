@@ -29,6 +29,7 @@ from colift.benchmark.paper.topics.performance import (
     human_human_exhibit,
     performance_claims,
 )
+from colift.benchmark.paper.topics.practice import practice_claims
 from colift.benchmark.paper.topics.prediction import prediction_claims, prediction_exhibit
 from colift.benchmark.paper.topics.table import table_claims, table_exhibit
 from colift.benchmark.paper.topics.timing import timing_claims, timing_exhibit, timing_results
@@ -158,6 +159,7 @@ def all_claims(evidence: Evidence, table: TableOne) -> list[Claim]:
         *confidence_claims(evidence.lifts, evidence.pauses),
         *forgetting_claims(evidence.rests, evidence.pauses, evidence.forgetting),
         *table_claims(table),
+        *practice_claims(evidence.practice["reactive"], evidence.practice["blend"], table),
         *performance_claims(evidence),
         *torque_claims(evidence),
         *timing_claims(evidence),

@@ -165,7 +165,7 @@ def _play(policy: str, physics: Physics, drawn: tuple[Scenario, int]) -> tuple[f
     scenario, seed = drawn
     if policy == PAIR:
         scenario = replace(scenario, partner="human")
-    spec = partner_spec(scenario.task) if policy == PAIR else PolicySpec(text=policy)
+    spec = partner_spec(scenario) if policy == PAIR else PolicySpec(text=policy)
     with closing(_lift(scenario, physics)) as lift, spec.agent() as agent:
         episode = run_episode(lift, agent, seed)
     return episode.scores["rmse_mm"], episode.trace

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 from colift.agents.spec import AgentSpec
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.tasks.level.task import BEHAVIOURS
 

@@ -15,13 +15,15 @@ from colift.agents.humans import (
     missed_words,
 )
 from colift.agents.humans.as_recorded import heights_of
+from colift.agents.humans.recorded_series import series_of
 from colift.base.errors import InputError
 from colift.benchmark.bundle import one_line, read_bundle
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.real_lifts.session_folder import lift_folders
 from colift.benchmark.results.goals import lift_goal_errors
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
-from colift.benchmark.suites.catalogue import AS_RECORDED, PLAYED
+from colift.benchmark.suites.catalogue import AS_RECORDED, PLAYED, SERIES, make_subject
+from colift.benchmark.suites.ranges import RECORDED_PEOPLE
 from colift.benchmark.suites.suite import Suite, plain_name, recorded_suite
 from colift.benchmark.tasks.level.task import LEVEL
 
@@ -143,7 +145,46 @@ def lifts_as_recorded(
     return RealLifts(suite=suite, left_out=left_out)
 
 
-def real_lifts(path: Path, *, as_recorded: bool = False, robot: str | None = None) -> RealLifts:
+def recorded_sessions(recordings: Sequence[Recording], source: str) -> RealLifts:
+    """Return recorded lifts as sessions, one of each person, scaled like :func:`.recorded_suite`.
+
+    Lifts beyond those of the person with the fewest, and people with one lift, are left out.
+
+    Raises
+    ------
+    InputError
+        If nobody has several lifts.
+    """
+    found = series_of(recordings)
+    if not found:
+        raise InputError(f"{source}: no person has several lifts: there is no session")
+    kept = {recording.name for series in found.values() for recording in series.lifts}
+    length = len(next(iter(found.values())).lifts)
+    scenarios = tuple(
+        Scenario(
+            behaviour=SERIES,
+            human=series,
+            trial=person,
+            subject=make_subject(f"draw-{RECORDED_PEOPLE[i % len(RECORDED_PEOPLE)]}"),
+            task=LEVEL,
+        )
+        for i, (person, series) in enumerate(found.items())
+    )
+    name = plain_name(f"recordings {source} in sessions")
+    suite = Suite(name=name, scenarios=scenarios, seeds=tuple(range(length)))
+    return RealLifts(
+        suite=suite,
+        left_out={
+            recording.name: f"a session has {length} lifts of each person"
+            for recording in recordings
+            if recording.name not in kept
+        },
+    )
+
+
+def real_lifts(
+    path: Path, *, as_recorded: bool = False, session: bool = False, robot: str | None = None
+) -> RealLifts:
     """Return the real lifts in a file of recordings or in a session's folder.
 
     Parameters
@@ -153,6 +194,8 @@ def real_lifts(path: Path, *, as_recorded: bool = False, robot: str | None = Non
     as_recorded
         Whether recordings are played at their own height and pace, as live lifts always are; else
         they are scaled and slowed down.
+    session
+        Whether the recordings of each person are one session, in their order.
     robot
         The robot at the far end, within whose stroke they must then be; None is the default.
 
@@ -162,7 +205,13 @@ def real_lifts(path: Path, *, as_recorded: bool = False, robot: str | None = Non
         If the file or the session cannot be used; the message states the reason.
     """
     if path.is_dir():
+        if session:
+            raise InputError(f"{path}: --session is for a file of recordings, not for live lifts")
         return played_lifts(path)
+    if session:
+        if as_recorded:
+            raise InputError("--session and --as-recorded exclude each other")
+        return recorded_sessions(load_recordings(path), path.name)
     if not as_recorded:
         return RealLifts(suite=recorded_suite(path))
     stroke = make_robot(robot or DEFAULT_ROBOT).stroke

@@ -159,7 +159,7 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
     if not moving:
         raise InputError(
             f"{where}: none of its {'hands' if hands else 'points'} rises along {up}"
-            f"{_other_axis(motion, candidates, up, rise)}: name the hand's marker, --marker NAME "
+            f"{other_axis(motion, candidates, up, rise)}: name the hand's marker, --marker NAME "
             f"(it has {_listed(names)}), or the axis that points up, --up X, Y, Z or -Y; somebody "
             "who stands still is no lift: leave the file out"
         )
@@ -180,7 +180,7 @@ def _open_choice(motion: Motion, up: str, rise: Rises, where: str) -> tuple[str,
     return names[best], f"the most complete of {len(moving)} that rise alike"
 
 
-def _other_axis(motion: Motion, candidates: Sequence[int], up: str, rise: Rises) -> str:
+def other_axis(motion: Motion, candidates: Sequence[int], up: str, rise: Rises) -> str:
     """Return along which other axis one of some points rises the most, in words; empty if none."""
     risen = {
         axis: max(rise(motion, heights_of(motion, [i], axis)[0]) for i in candidates)

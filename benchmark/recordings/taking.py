@@ -9,7 +9,7 @@ import numpy as np
 from colift.agents.humans.artefacts import SHORTEST, fault
 from colift.base.errors import InputError
 from colift.benchmark.recordings.checking import check_clock, check_unit, with_gaps
-from colift.benchmark.recordings.choosing import Track, choose
+from colift.benchmark.recordings.choosing import Track, choose, other_axis
 from colift.benchmark.recordings.cutting import Cut, Lift, broken, cut_off, lifts_in, rise_in
 from colift.benchmark.recordings.kinds import read_motions
 from colift.benchmark.recordings.motion import Motion, Series
@@ -84,17 +84,15 @@ def _nothing(track: Track, cut: Cut, where: str) -> str:
         return f"{where}: {track.hand} was never seen: choose another with --marker"
     text = (
         f"{where}: no lift: {track.hand} moves {np.ptp(seen):.3f} m along {track.up}, and never "
-        f"rises by {cut.least:g} m at once (somebody who stands still is no lift: leave the file "
-        "out"
+        f"rises by {cut.least:g} m at once"
     )
-    index = motion.names.index(track.hand) if track.hand in motion.names else None
-    if index is not None:
-        others = [axis for axis in ("X", "Y", "Z", "-X", "-Y", "-Z") if axis != track.up]
-        risen = {a: rise_in(motion.times, motion.heights(index, a), cut) for a in others}
-        best = max(others, key=lambda axis: risen[axis])
-        if risen[best] > 0.0:
-            text += f"; or is up {best}, along which it rises {risen[best]:.2f} m? --up {best}"
-    return text + "; or is the unit another? --unit; smaller lifts: --rise)"
+    if track.hand in motion.names:
+        index = motion.names.index(track.hand)
+        text += other_axis(motion, [index], track.up, lambda m, z: rise_in(m.times, z, cut))
+    return (
+        f"{text} (somebody who stands still is no lift: leave the file out; or is the unit "
+        "another? --unit; smaller lifts: --rise)"
+    )
 
 
 def _taken(

@@ -5,6 +5,7 @@ from typing import Final
 
 from colift.benchmark.rendering.layout import Layout
 from colift.benchmark.rendering.style import DASHES, HUMAN, LOOKS, PEOPLE, style_axes
+from colift.benchmark.statistics import Estimate
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -14,6 +15,9 @@ NARROW: Final = 0.7
 
 AROUND: Final = 0.6
 """Room for axes and legend [inches]."""
+
+APART: Final = 0.05
+"""Distance of the intervals of two lines, where the distance of their points is 1."""
 
 FULL: Final = 0.9
 """Largest width of a legend, relative to that of its panel."""
@@ -125,6 +129,21 @@ def draw_lines(axes: Axes, lines: Mapping[str, Sequence[tuple[float, float]]]) -
         *_, marker = LOOKS[(which + again) % len(LOOKS)]
         x, y = zip(*sorted(points), strict=True)
         axes.plot(x, y, color=colour, ls=line, marker=marker, ms=4, lw=1.6, label=name)
+
+
+def draw_estimates(axes: Axes, lines: Mapping[str, Sequence[tuple[float, Estimate]]]) -> None:
+    """Draw lines as :func:`draw_lines` does, with 95 % intervals, which do not hide each other."""
+    beside = [APART * (i - (len(lines) - 1) / 2) for i in range(len(lines))]
+    draw_lines(
+        axes,
+        {
+            name: [(place + x, each.mean) for place, each in line]
+            for x, (name, line) in zip(beside, lines.items(), strict=True)
+        },
+    )
+    for drawn, line in zip(axes.get_lines(), lines.values(), strict=True):
+        low, high = zip(*(each.ends for _, each in line), strict=True)
+        axes.vlines(drawn.get_xdata(), low, high, color=drawn.get_color(), lw=1.0)
 
 
 def draw_people(axes: Axes, error: float) -> None:

@@ -4,9 +4,10 @@ The engine's own capsules and cylinders are coarse prisms with blurred edges; th
 exact normals.
 """
 
+import hashlib
 import math
 from dataclasses import dataclass, replace
-from typing import Final, Self
+from typing import Any, Final, Self
 
 import numpy as np
 from colift.benchmark.world.bullet import pybullet
@@ -48,6 +49,27 @@ class Solid:
     """Red, green, blue, opacity."""
 
 
+_listed: Final[dict[bytes, dict[str, list[Any]]]] = {}
+
+
+def _lists(mesh: Mesh) -> dict[str, list[Any]]:
+    """Return a mesh as PyBullet takes it, the same lists for equal meshes.
+
+    PyBullet never releases the vertices that it is given: another picture must not take more
+    memory.
+    """
+    arrays = (mesh.vertices, mesh.normals, mesh.triangles)
+    key = hashlib.sha256(b"".join(array.tobytes() for array in arrays)).digest()
+    if key not in _listed:
+        _listed[key] = {
+            "vertices": mesh.vertices.tolist(),
+            "normals": mesh.normals.tolist(),
+            "uvs": [[0.0, 0.0]] * len(mesh.vertices),
+            "indices": mesh.triangles.ravel().tolist(),
+        }
+    return _listed[key]
+
+
 class Solids:
     """The solids of a scene.
 
@@ -64,13 +86,9 @@ class Solids:
 
     def add(self, name: str, mesh: Mesh, colour: Colour, centre: Point | None = None) -> int:
         """Put a solid at a place [m], the origin if none is given, and return its body."""
-        vertices = len(mesh.vertices)
         shape = pybullet.createVisualShape(
             pybullet.GEOM_MESH,
-            vertices=mesh.vertices.tolist(),
-            normals=mesh.normals.tolist(),
-            uvs=[[0.0, 0.0]] * vertices,
-            indices=mesh.triangles.ravel().tolist(),
+            **_lists(mesh),
             rgbaColor=colour,
             physicsClientId=self._client,
         )

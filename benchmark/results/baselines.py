@@ -17,7 +17,7 @@ from colift.agents.agent import Agent
 from colift.agents.humans import SecondPerson
 from colift.agents.loading.policy_spec import InMemorySpec, PolicySpec
 from colift.agents.spec import AgentSpec
-from colift.benchmark.episode.task import Task
+from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.execution.runner import Run, finished, run_suite
 from colift.benchmark.rendering.style import PEOPLE
 from colift.benchmark.results.scores import ScoreTable
@@ -46,19 +46,20 @@ SECOND_PERSON_SPEC: Final = InMemorySpec(
 
 @runtime_checkable
 class Accompanied(Protocol):
-    """A task with its own agent for the second human."""
+    """A behaviour or a task with its own agent for the second human."""
 
     @property
     def second_human(self) -> type[Agent]:
         """Class of the agent, made without arguments."""
 
 
-def partner_spec(task: Task) -> AgentSpec:
-    """Return the second human of a task's human-human baseline."""
-    if not isinstance(task, Accompanied):
-        return SECOND_PERSON_SPEC
-    made = task.second_human
-    return InMemorySpec(name=HUMAN_HUMAN, factory=made, source=made)
+def partner_spec(scenario: Scenario) -> AgentSpec:
+    """Return the second human beside the person of a scenario."""
+    for each in (scenario.human, scenario.task):
+        if isinstance(each, Accompanied):
+            made = each.second_human
+            return InMemorySpec(name=HUMAN_HUMAN, factory=made, source=made)
+    return SECOND_PERSON_SPEC
 
 
 BASELINES: Final = (HUMAN_HUMAN, "hold", "copy")
@@ -67,7 +68,7 @@ BASELINES: Final = (HUMAN_HUMAN, "hold", "copy")
 
 def baseline_specs(suite: Suite) -> dict[str, AgentSpec]:
     """Return the agents that play a suite's baselines, by the baselines' names."""
-    human = partner_spec(suite.scenarios[0].task)
+    human = partner_spec(suite.scenarios[0])
     return {name: human if name == HUMAN_HUMAN else PolicySpec(text=name) for name in BASELINES}
 
 
@@ -85,7 +86,7 @@ def human_human_run(
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> Run:
     """Play a suite's episodes with a second human at the robot's end; see :func:`.run_suite`."""
-    spec = partner_spec(suite.scenarios[0].task)
+    spec = partner_spec(suite.scenarios[0])
     return run_suite(spec, suite.with_partner("human"), executor=executor, progress=progress)
 
 

@@ -46,14 +46,15 @@ def scored_lifts(run: Run, human_human: ScoreTable | None) -> Iterator[ScoredLif
 
     ``human_human`` is the human-human baseline on the same lifts, if it is known.
     """
-    for place, episode in enumerate(run.episodes):
+    people = None if human_human is None else human_human.lifts_at(run.places)
+    for row, episode in enumerate(run.episodes):
         yield ScoredLift(
             behaviour=episode.behaviour,
             subject=episode.subject,
             trial=episode.trial,
             seed=episode.seed,
             rmse_mm=episode.scores["rmse_mm"],
-            human_human_mm=None if human_human is None else human_human.rmse_mm[place],
+            human_human_mm=None if people is None else people[row],
             failure=episode.failure,
         )
 

@@ -38,7 +38,7 @@ def stratum(episode: Episode) -> Stratum:
 
 @dataclass(frozen=True, kw_only=True)
 class ScoreTable:
-    """The scores of one agent: metrics x lifts, and the stratum of each lift.
+    """The scores of one agent: metrics x lifts that count, and the stratum of each lift.
 
     Means, intervals, ranks and the rows of boards are taken from it.
     """
@@ -55,6 +55,9 @@ class ScoreTable:
     table has none."""
     failures: tuple[str | None, ...] = ()
     """Reason of each failure; None for a lift that did not fail. A stored table has none."""
+    session_mm: Sequence[float] = field(default=(), hash=False)
+    """RMSE of each lift of the suite [mm], by its place, if it has sessions, of which only the last
+    lifts count; empty if all lifts count."""
     gentle: tuple[str, ...] = ()
     """Metrics that show how gentle the agent is, by which others are compared with it; a table that
     was stored before there were such metrics has none."""
@@ -62,7 +65,7 @@ class ScoreTable:
     @classmethod
     def of(cls, run: Run) -> Self:
         """Return the scores of a run."""
-        return cls.of_lifts(run.suite, enumerate(run.episodes))
+        return cls.of_lifts(run.suite, zip(run.places, run.episodes, strict=True))
 
     @classmethod
     def of_lifts(cls, suite: Suite, lifts: Iterable[tuple[int, Episode]]) -> Self:
@@ -73,7 +76,11 @@ class ScoreTable:
         strata: list[Stratum] = []
         persons: list[str] = []
         failures: list[str | None] = []
+        every: dict[int, float] = {}
         for place, each in lifts:
+            every[place] = each.scores[LEADING]
+            if not suite.counts(place):
+                continue
             where = known.setdefault(stratum(each), stratum(each))
             places.append(place)
             strata.append(where)
@@ -95,6 +102,7 @@ class ScoreTable:
                 each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
             },
             failures=tuple(failures[i] for i in order),
+            session_mm=tuple(map(every.__getitem__, sorted(every))) if suite.session else (),
             gentle=tuple(each.name for each in gentle(metrics)),
         )
 
@@ -108,6 +116,18 @@ class ScoreTable:
     def rmse_mm(self) -> Sequence[float]:
         """RMSE of each lift [mm]."""
         return self.values[LEADING]
+
+    @property
+    def lifts_mm(self) -> Sequence[float]:
+        """RMSE of each lift of the suite [mm], by its place."""
+        return self.session_mm or self.rmse_mm
+
+    def lifts_at(self, places: Sequence[int]) -> Sequence[float]:
+        """Return the RMSE of the lifts of a run [mm], by the run's places.
+
+        Without sessions the run and this table have the same lifts.
+        """
+        return [self.session_mm[each] for each in places] if self.session_mm else self.rmse_mm
 
     @property
     def mean(self) -> float:
@@ -178,6 +198,7 @@ class ScoreTable:
             people=self.people,
             values=values,
             means=self.means,
+            session_mm=self.session_mm,
             gentle=self.gentle,
         )
 
@@ -187,6 +208,7 @@ class ScoreTable:
             "strata": [list(key) for key in self.strata],
             **({"people": list(self.people)} if self.people else {}),
             "rmse_mm": list(self.rmse_mm),
+            **({"session_mm": list(self.session_mm)} if self.session_mm else {}),
             "means": dict(self.means),
             "gentle": {
                 name: [None if math.isnan(value) else value for value in self.values[name]]
@@ -227,6 +249,7 @@ class ScoreTable:
             people=kept.people,
             values=values,
             means=kept.means,
+            session_mm=kept.session_mm,
             gentle=tuple(kept.gentle),
         )
 
@@ -243,6 +266,7 @@ class _Stored(msgspec.Struct):
     rmse_mm: tuple[float, ...]
     means: dict[str, float | None]
     people: tuple[str, ...] = ()
+    session_mm: tuple[float, ...] = ()
     gentle: dict[str, tuple[float | None, ...]] = {}
 
 

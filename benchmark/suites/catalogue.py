@@ -30,10 +30,16 @@ AS_RECORDED: Final = "as_recorded"
 OF_RECORDINGS: Final = (RECORDED, AS_RECORDED)
 """The behaviours of people in files of recordings: scaled, or at their own height and pace."""
 
+SERIES: Final = "recorded_series"
+"""The behaviour of a person's recorded lifts in a row; it is not registered: it needs several."""
+
+FROM_FILES: Final = (*OF_RECORDINGS, SERIES)
+"""All behaviours of people in files of recordings."""
+
 PLAYED: Final = "played"
 """The behaviour of live lifts; it is not registered, since it needs their recorded hands."""
 
-REAL: Final = (*OF_RECORDINGS, PLAYED)
+REAL: Final = (*FROM_FILES, PLAYED)
 """The behaviours of real people."""
 
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from colift.agents.humans import Subject
 from colift.base.errors import InputError
 from colift.benchmark.episode.conditions import Conditions
+from colift.benchmark.episode.scenario import LATENCY
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.ranges import LEARNING_PEOPLE
 from colift.benchmark.suites.suite import Suite
@@ -18,6 +19,7 @@ def people_suite(
     people: range,
     lifts: int = 1,
     conditions: Conditions | None = None,
+    latency: float = LATENCY,
 ) -> Suite:
     """Return a suite in which each drawn person plays all behaviours.
 
@@ -37,6 +39,8 @@ def people_suite(
         Number of lifts of each person with each behaviour: the seeds 0, 1, ...
     conditions
         Ranges of what is drawn for each lift; see :attr:`.Scenario.conditions`.
+    latency
+        Age of the robot's samples [s].
 
     Raises
     ------
@@ -51,7 +55,7 @@ def people_suite(
         )
     subjects = [Subject.draw(person) for person in people]
     scenarios = tuple(
-        replace(made, subject=subject, conditions=conditions)
+        replace(made, subject=subject, conditions=conditions, latency=latency)
         for made in (make_scenario(behaviour, task=task) for behaviour in behaviours)
         for subject in subjects
     )

@@ -26,6 +26,9 @@ INTENT_PEOPLE: Final = range(401, 426)
 ROBUST_PEOPLE: Final = range(501, 541)
 """People of ``robust-v1``."""
 
+SESSION_PEOPLE: Final = range(601, 641)
+"""People of ``session-v1``."""
+
 RECORDED_PEOPLE: Final = range(1_001, 2_001)
 """People whose bodies recorded motion has, in turn."""
 

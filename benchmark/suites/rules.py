@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from colift.agents.humans.serial import Serial
 from colift.base.plugins import article, place_of
 from colift.benchmark.episode.conformance import behaviour_fault, task_fault
 from colift.benchmark.episode.scenario import Scenario
@@ -30,6 +31,8 @@ def scenarios_fault(scenarios: Sequence[object]) -> str | None:
         fault = task_fault(task)
         if fault is not None:
             return f"has a task ({place_of(task)}) that {fault}"
+    if len({isinstance(each.human, Serial) for each in known}) > 1:
+        return "has sessions and independent lifts: it must have one or the other"
     tasks = list(dict.fromkeys(each.task for each in known))
     if len(tasks) > 1:
         names = [task.name for task in tasks]

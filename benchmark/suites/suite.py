@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Final, NamedTuple
 
 from colift.agents.humans import Recorded, load_recordings
+from colift.agents.humans.serial import Serial
 from colift.base.errors import InputError
 from colift.base.plugins import article, blaming
 from colift.base.registry import SUITES, called, lookup
@@ -69,9 +70,27 @@ class Suite:
         return len(self.scenarios) * len(self.seeds)
 
     def at(self, place: int) -> Due:
-        """Return the lift at a place: scenario by scenario, each with all seeds."""
+        """Return the lift at a place: scenario by scenario, each with all seeds.
+
+        In a session, its person has learned nothing from the lifts before.
+        """
         row, column = divmod(place, len(self.seeds))
-        return Due(place, self.scenarios[row], self.seeds[column])
+        scenario = self.scenarios[row]
+        if isinstance(scenario.human, Serial):
+            scenario = dataclasses.replace(scenario, human=scenario.human.at(column))
+        return Due(place, scenario, self.seeds[column])
+
+    @property
+    def session(self) -> int:
+        """Lifts of a session, of which each scenario is one; 0 if lifts are independent."""
+        return len(self.seeds) if isinstance(self.scenarios[0].human, Serial) else 0
+
+    def counts(self, place: int) -> bool:
+        """Return whether the lift at a place counts: all do, or the last ones of a session."""
+        human = self.scenarios[place // len(self.seeds)].human
+        if not isinstance(human, Serial):
+            return True
+        return place % len(self.seeds) >= len(self.seeds) - human.counted
 
     @property
     def hand_speed(self) -> float:

@@ -1,6 +1,6 @@
 """Results as tables and text for a terminal."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, Final
 
 from colift.agents.real_time import LOWEST_RATE
@@ -9,6 +9,7 @@ from colift.benchmark.bundle import Results
 from colift.benchmark.channels import channel_name
 from colift.benchmark.episode.metric import LEADING, Metric, Metrics, notes
 from colift.benchmark.results.baselines import HUMAN_HUMAN, HUMAN_HUMAN_LABEL
+from colift.benchmark.results.curve import SessionCurve
 from colift.benchmark.results.headline import error, versus_human
 from colift.benchmark.results.roughness import MEANING, by_which
 from colift.benchmark.results.strata import (
@@ -70,7 +71,8 @@ def results_table(content: Results, metrics: Metrics) -> Table:
             None,
             styled(("all", *_row(strata, shown, several)), "bold"),
         ],
-        caption=f"{counted(summary.episodes, 'lift')}, {summary.failed} failed; "
+        caption=f"{counted(summary.episodes, 'lift')}{_session(content)}, "
+        f"{summary.failed} failed; "
         f"suite digest {content.suite_digest}. "
         + " ".join(filter(None, (PEOPLE, spread, notes(shown)))),
     )
@@ -84,6 +86,8 @@ def results_text(content: Results, metrics: Metrics) -> str:
         lines.append(f"Channel to the policy: {content.channel}. The baselines have none.")
     if summary.vs_human is not None:
         lines.append(f"{versus_human(summary)}: 1 is as good as a human partner, less is better")
+    if content.session is not None:
+        lines.extend(curve_lines(content.session))
     if summary.rougher:
         lines.append(f"{MEANING} This policy is, by {by_which(summary.rougher, metrics)}.")
     for name, baseline in content.baselines.items():
@@ -107,6 +111,25 @@ def results_text(content: Results, metrics: Metrics) -> str:
         note = "" if content.isolation in VERIFIABLE else "; not enough for a verified row"
         lines.append(f"Isolation: {content.isolation}{note}")
     return "\n".join(lines)
+
+
+def _session(content: Results) -> str:
+    """Return which lifts of a session count; empty if lifts are independent."""
+    curve = content.session
+    if curve is None:
+        return ""
+    return (
+        f", {len(curve.rmse_mm)} with each person in a row, of which the last {curve.counted} count"
+    )
+
+
+def curve_lines(curve: SessionCurve) -> Iterator[str]:
+    """Yield what happens from the first lift of a session to the last, in lines."""
+    people = curve.human_human_rmse_mm
+    for label, errors in (("RMSE mm, lift by lift", curve.rmse_mm), ("two people", people or ())):
+        if errors:
+            yield f"{label}: {' '.join(f'{each.mean:.1f}' for each in errors)}"
+    yield curve.learned
 
 
 def _over(content: Results) -> str:

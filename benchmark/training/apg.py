@@ -17,7 +17,7 @@ import jax.numpy as jnp
 import optax
 from colift.benchmark.training.apg_settings import PARTS, ApgSettings
 from colift.benchmark.training.lesson import BatchDraw, GradientLesson
-from colift.benchmark.training.lessons import lesson_of
+from colift.benchmark.training.lessons import lesson_for
 
 LARGEST_GRADIENT: Final = 5.0
 """Norm to which gradients are clipped."""
@@ -54,7 +54,7 @@ def first_learner(
     settings: ApgSettings, seed: int, lesson: GradientLesson | None = None
 ) -> Learner:
     """Return the learner before the first update; arguments as for :func:`updates`."""
-    network = (lesson or lesson_of(settings.task, alone=settings.alone)).first(settings, seed)
+    network = (lesson or lesson_for(settings)).first(settings, seed)
     return Learner(network, optimiser(settings).init(network), 0)
 
 
@@ -80,7 +80,7 @@ def updates(
     lesson
         A lesson to use instead of that of the settings' task.
     """
-    lesson = lesson or lesson_of(settings.task, alone=settings.alone)
+    lesson = lesson or lesson_for(settings)
     learner = learner or first_learner(settings, seed, lesson)
     lifts = lesson.draw(settings) if pool is None else pool
     network, state = learner.network, learner.optimiser

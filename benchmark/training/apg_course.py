@@ -10,7 +10,7 @@ import numpy as np
 from colift.benchmark.training.apg import Learner, first_learner, updates
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Course, Point, check_finite
-from colift.benchmark.training.lessons import lesson_of
+from colift.benchmark.training.lessons import lesson_for
 from colift.benchmark.training.result import write_policy
 from numpy.typing import NDArray
 
@@ -40,7 +40,7 @@ def train_apg(
     InputError
         If the course cannot be resumed, the training diverges, or a file cannot be written.
     """
-    lesson = lesson_of(settings.task, alone=settings.alone)
+    lesson = lesson_for(settings)
     learner = first_learner(settings, course.seed, lesson)
     state = course.load(_shapes(learner))
     if state is not None:

@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Literal, get_args
 
 from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_task
@@ -14,7 +14,9 @@ NAME: Final = "apg"
 PARTS: Final = 2
 """Parts of a batch, each in a thread of its own: a fixed number, so that sums keep their order."""
 
-OF_SIGHT: Final = ("unsettled", "encoders", "smoothness", "gentleness")
+Session = Literal["", "remember", "forget"]
+
+OF_SIGHT: Final = ("unsettled", "encoders", "smoothness", "gentleness", "session")
 """Settings that only the training of a level table uses."""
 
 
@@ -60,6 +62,9 @@ class ApgSettings:
     """Cost of the force at the human's hands, in mm/N. Only for a level table."""
     alone: bool = False
     """Blind to the partner, who is seen only to keep level. Only for tasks with touch."""
+    session: Session = ""
+    """Train on sessions of ten lifts with people who have habits: ``remember`` keeps the units from
+    lift to lift, ``forget`` does not. A batch is then of sessions. Only for a level table."""
 
     def __post_init__(self) -> None:
         """Check the ranges."""
@@ -69,9 +74,14 @@ class ApgSettings:
             unused = (*unused, "wide")
         if not task.touch:
             unused = (*unused, "alone")
+        if self.session not in get_args(Session):
+            raise InputError(f"--session must be remember or forget, got {self.session!r}")
+        if self.session:
+            unused = (*unused, "wide", "unsettled", "varied", "smoothness", "gentleness")
         for name in unused:
             if getattr(self, name) != getattr(ApgSettings, name):
-                raise InputError(f"--{name} has no effect on the task {self.task!r}")
+                what = "sessions" if self.session else f"the task {self.task!r}"
+                raise InputError(f"--{name} has no effect on {what}")
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")

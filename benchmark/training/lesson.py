@@ -8,7 +8,6 @@ import jax
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
 from colift.benchmark.training.apg_settings import ApgSettings
-from colift.benchmark.twin.lifts import Lifts
 from numpy.typing import NDArray
 
 Weights = Mapping[str, NDArray[Any]]
@@ -63,11 +62,11 @@ class PolicyLesson(GradientLesson, Protocol):
     def steps(self, pool: Any) -> float:
         """Return the mean number of control steps of these lifts."""
 
-    def validation(self) -> Lifts:
-        """Return the lifts of a curve, with people who are not used for learning."""
+    def validation(self) -> Any:
+        """Return the lifts of a curve, as arrays, with people who are not used for learning."""
 
-    def errors(self, network: Any, lifts: Lifts) -> jax.Array:
-        """Return the policy's RMSE in lifts of the twin (n,) [mm]."""
+    def errors(self, network: Any, lifts: Any) -> jax.Array:
+        """Return the policy's RMSE in the lifts of a curve [mm]."""
 
     def check(self, weights: Weights) -> object:
         """Raise an InputError if the policy could not use these weights."""

@@ -1,12 +1,32 @@
 """The lessons by the name of their task."""
 
 from functools import cache
+from typing import Final
 
 from colift.benchmark.suites.catalogue import make_task
+from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tasks.level.task import LEVEL
+from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import PolicyLesson
 from colift.benchmark.training.level_lesson import LevelLesson
+from colift.benchmark.training.session_kinds import Kind
+from colift.benchmark.training.session_lesson import SessionLesson
 from colift.benchmark.training.touch_lesson import TouchLesson
+
+SESSIONS: Final = "session-v1"
+"""The suite whose sessions are learned from, with other people."""
+
+
+def lesson_for(settings: ApgSettings) -> PolicyLesson:
+    """Return the lesson of some settings; raise an InputError as :func:`lesson_of`."""
+    if settings.session:
+        return _session_lesson(settings.session)
+    return lesson_of(settings.task, alone=settings.alone)
+
+
+@cache
+def _session_lesson(kind: Kind) -> PolicyLesson:
+    return SessionLesson(make_suite(SESSIONS), kind)
 
 
 @cache

@@ -52,7 +52,12 @@ class ToldNetwork:
 
 
 def write_networks(networks: Mapping[str, ToldNetwork], folder: Path) -> None:
-    """Write the file of each network into a new folder, named by its name.
+    """Write the file of each network into a new folder; see :func:`write_weights`."""
+    write_weights({name: network.dump() for name, network in networks.items()}, folder)
+
+
+def write_weights(networks: Mapping[str, Mapping[str, Any]], folder: Path) -> None:
+    """Write the arrays of each network into a new folder, in a file of its name.
 
     Raises
     ------
@@ -61,8 +66,7 @@ def write_networks(networks: Mapping[str, ToldNetwork], folder: Path) -> None:
     """
     try:
         folder.mkdir(parents=True)
-        for name, network in networks.items():
-            arrays: dict[str, Any] = network.dump()
+        for name, arrays in networks.items():
             np.savez(folder / f"{name.replace(' ', '_')}.npz", **arrays)
     except OSError as error:
         raise InputError(f"cannot write {folder}: {error.strerror}") from error

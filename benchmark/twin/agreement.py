@@ -10,10 +10,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from colift.agents.agent import Agent
+from colift.agents.humans.person import Person
 from colift.agents.rules import SCALARS, Drawn
 from colift.benchmark.episode.lift import READ, Lift
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.turns import policy_seed
+from colift.benchmark.tasks.level.task import Level
 from colift.benchmark.tasks.touch import Ends, Touch, frame_of
 from colift.benchmark.twin.columns import LiftSeries, columns
 from colift.benchmark.twin.drawing import check_modelled
@@ -67,7 +69,7 @@ def past_of(lift: Lift) -> Past:
 def drawn_arrays(lift: Lift) -> Drawn[Any]:
     """Return what is drawn of a lift that was reset, as arrays of one lift."""
     plan, size = lift.drawn, lift.frames_per_step
-    chance, manner = lift.task.person.draw(
+    chance, manner = lift.scenario.rules.draw(
         lift.scenario.subject, lift.role_seed, lift.horizon // size, size
     )
 
@@ -91,26 +93,28 @@ def double_precision() -> AbstractContextManager[Any]:
 class Rules(NamedTuple):
     """The rules of a task and its person as functions of arrays, with the same of numbers."""
 
-    task: Touch
+    task: Level
+    person: Person
     drawn: Drawn[Any]
     frames: int
 
     def begin(self) -> Any:
         """Return the person's memory at the beginning."""
-        return self.task.person.begin(LIFTS, jnp.zeros(1), jnp.zeros(1, bool))
+        return self.person.begin(LIFTS, jnp.zeros(1), jnp.zeros(1, bool))
 
     def decide(self, memory: Any, past: Past) -> tuple[Any, Any, Any]:
         """Return the person's memory after a step and the intention, and what the robot senses."""
-        after, intention = self.task.person.intend(LIFTS, self.drawn, memory, past, self.frames)
+        after, intention = self.person.intend(LIFTS, self.drawn, memory, past, self.frames)
         return after, intention, self.task.observe(LIFTS, self.drawn, past)
 
     def drive(self, intention: Any, references: jax.Array) -> Any:
         """Return the driven differences and pitches."""
-        driven = self.task.person.drive(LIFTS, self.drawn, intention, references)
+        driven = self.person.drive(LIFTS, self.drawn, intention, references)
         return tuple(jnp.broadcast_to(each, references.shape) for each in driven)
 
     def judge(self, frame: jax.Array, ends: Ends) -> tuple[Any, Any]:
-        """Return the squares that are missed in a frame, and whether it is lost."""
+        """Return the squares that are missed in a frame, and whether it is lost, with touch."""
+        assert isinstance(self.task, Touch)
         due = jax.tree.map(
             lambda each: each.at(frame),
             self.drawn.series,
@@ -119,7 +123,8 @@ class Rules(NamedTuple):
         return self.task.missed(LIFTS, due, ends), self.task.lost(LIFTS, ends)
 
     def left(self, past: Past) -> Any:
-        """Return how many frames of the plan are unfinished."""
+        """Return how many frames of the plan are unfinished, with touch."""
+        assert isinstance(self.task, Touch)
         return self.task.unfinished(LIFTS, self.drawn, past)
 
 
@@ -152,10 +157,10 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
 
     with contextlib.closing(Lift(scenario)) as lift, double_precision():
         lift.reset(seed)
-        task, person = lift.task, lift.task.person
-        assert isinstance(task, Touch)
+        task, person = lift.task, scenario.rules
+        assert isinstance(task, Level)
         human, size = lift.human(), lift.frames_per_step
-        rules = Rules(task, drawn_arrays(lift), size)
+        rules = Rules(task, person, drawn_arrays(lift), size)
         decide, drive, judge = jax.jit(rules.decide), jax.jit(rules.drive), jax.jit(rules.judge)
         left = jax.jit(rules.left)
         memory = rules.begin()
@@ -171,6 +176,8 @@ def largest_difference(scenario: Scenario, seed: int, make: Callable[[], Agent])
             arrays = drive(intention, jnp.asarray(references)[:, np.newaxis])
             compare(list(zip(*driven, strict=True)), arrays)
             lift.step(references, robot.act(lift.partner_observation()))
+            if not isinstance(task, Touch):
+                continue
             world, last = lift.world, first + size - 1
             ends = Ends(world.human_end[-1], world.robot_end[-1], world.ball_place[-1])
             missed, lost = judge(jnp.asarray(last), Ends(*(jnp.asarray([x]) for x in ends)))

@@ -11,6 +11,7 @@ from colift.benchmark.episode.loop import Episode
 from colift.benchmark.execution.batches import Batch, Faults, run_batches
 from colift.benchmark.execution.runner import Run, placed
 from colift.benchmark.suites.hidden import keyed
+from colift.benchmark.suites.suite import Suite
 
 AUDIT: Final = "audit"
 """Name of the instance of a sandboxed policy that is played again."""
@@ -130,11 +131,22 @@ def _again(
     keep: Callable[[int, Episode], None],
     progress: Callable[[int], None] = lambda episodes: None,
 ) -> dict[int, Episode]:
-    """Play the episodes at the places again, each as a separate task, in that order."""
+    """Play the episodes at the places again, each as a separate task, in that order.
+
+    Of a session all lifts are played up to the last that is wanted.
+    """
     there, found = placed(policy, executor), {}
-    wanted = [Batch(policy=there, lifts=(run.suite.at(index),)) for index in indices]
+    wanted = [_batch(there, run.suite, index) for index in indices]
     for index, episode in run_batches(wanted, executor, Faults()):
         found[index] = episode
         keep(index, episode)
         progress(1)
     return found
+
+
+def _batch(policy: AgentSpec, suite: Suite, place: int) -> Batch:
+    """Return the lift at a place, after those of its session before."""
+    first = place - place % suite.session if suite.session else place
+    before = range(first, place)
+    lifts = tuple(suite.at(each) for each in (*before, place))
+    return Batch(policy=policy, lifts=lifts, done=frozenset(before))

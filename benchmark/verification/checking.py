@@ -13,7 +13,7 @@ from colift.benchmark.bundle import Results, results
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, Scenario
 from colift.benchmark.episode.turns import START
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import (
     HUMAN_HUMAN,
@@ -140,14 +140,14 @@ def check_part(suite: Suite) -> Suite:
     """Return a suite of at most :data:`FEW` lifts unchanged, of others two lifts per behaviour.
 
     Each behaviour has other people, as far as there are enough of them: two if the suite has a
-    single seed, else one.
+    single seed, else one. Of sessions there are four, whole.
     """
     if suite.size <= FEW:
         return suite
     behaviours: dict[str, list[Scenario]] = {}
     for scenario in suite.scenarios:
         behaviours.setdefault(scenario.behaviour, []).append(scenario)
-    people = 2 if len(suite.seeds) == 1 else 1
+    people = 4 if suite.session else 2 if len(suite.seeds) == 1 else 1
     return dataclasses.replace(
         suite,
         name=f"{suite.name}, a part",
@@ -156,7 +156,7 @@ def check_part(suite: Suite) -> Suite:
             for i, some in enumerate(behaviours.values())
             for k in range(people)
         ),
-        seeds=suite.seeds[:2],
+        seeds=suite.seeds if suite.session else suite.seeds[:2],
     )
 
 

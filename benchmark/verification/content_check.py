@@ -159,7 +159,7 @@ def score_findings(bundle: Bundle, run: Run, content: Results, *, exact: bool) -
         scores = [dict(each.scores) for each in (claim, true)]
         if bundle.human_human_mm is not None and people is not None:
             scores[0][HUMAN_HUMAN_RMSE] = bundle.human_human_mm[row]
-            scores[1][HUMAN_HUMAN_RMSE] = people.rmse_mm[bundle.indices[row]]
+            scores[1][HUMAN_HUMAN_RMSE] = people.lifts_mm[bundle.indices[row]]
         for difference in differences(*scores, tolerance=tolerance):
             if not (played and _near(difference)):
                 yield Finding(file=EPISODES, episode=episode_name(true), message=str(difference))

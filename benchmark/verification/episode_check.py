@@ -1,6 +1,6 @@
 """The replay of a bundle's episodes, in this process or on any executor, and their checks."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, as_completed
 from dataclasses import dataclass
 
@@ -18,6 +18,7 @@ from colift.benchmark.episode.replay import ReplayError, replay
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
 from colift.benchmark.execution.batches import LIFTS_PER_BATCH
+from colift.benchmark.execution.sessions import known_lifts
 from colift.benchmark.suites.suite import Due, Suite, alike
 from colift.benchmark.tasks.worlds import played_lift
 from colift.benchmark.verification.channel_check import channel_fault
@@ -138,12 +139,15 @@ def _first(logged: Trace, error: ReplayError, *, same_platform: bool) -> Place:
 def simulate(
     bundle: Bundle,
     suite: Suite,
+    rows: Sequence[int] | None = None,
     *,
     same_platform: bool,
     executor: Executor | None,
     progress: Callable[[int], None],
 ) -> list[Checked]:
     """Return the result of each episode's replay, in the order of the bundle.
+
+    ``rows`` are those of the episodes to replay; None is all of them.
 
     Raises
     ------
@@ -153,25 +157,48 @@ def simulate(
         If the task or the behaviour of another package failed.
     """
     found: list[Checked] = []
-    for part in _parts(episode_checks(bundle, suite, same_platform), executor):
+    for part in _parts(episode_checks(bundle, suite, same_platform, rows), executor):
         found += part
         progress(len(part))
     return sorted(found, key=lambda checked: checked.index)
 
 
-def episode_checks(bundle: Bundle, suite: Suite, same_platform: bool) -> list[EpisodeCheck]:
-    """Return the checks, divided as :func:`.batches.batches` divides a run."""
-    firsts = range(0, len(bundle.indices), LIFTS_PER_BATCH)
-    parts = [slice(first, first + LIFTS_PER_BATCH) for first in firsts]
+def episode_checks(
+    bundle: Bundle, suite: Suite, same_platform: bool, rows: Sequence[int] | None = None
+) -> list[EpisodeCheck]:
+    """Return the checks, of some lifts each; ``rows`` as for :func:`simulate`.
+
+    What the person of a session knows in a lift follows from the logs of the lifts before, each of
+    which is checked itself.
+    """
+    every = range(len(bundle.indices)) if rows is None else rows
+    logged = _Traces(dict(zip(bundle.indices, bundle.episodes, strict=True)))
+    lifts = list(known_lifts(suite, [bundle.indices[row] for row in every], logged))
     return [
         EpisodeCheck(
-            lifts=tuple(suite.at(index) for index in bundle.indices[part]),
-            episodes=tuple(bundle.episodes[part]),
+            lifts=tuple(lifts[first : first + LIFTS_PER_BATCH]),
+            episodes=tuple(bundle.episodes[row] for row in every[first : first + LIFTS_PER_BATCH]),
             same_platform=same_platform,
             channel=bundle.recipe.channel,
         )
-        for part in parts
+        for first in range(0, len(every), LIFTS_PER_BATCH)
     ]
+
+
+class _Traces(Mapping[int, Trace]):
+    """The traces of episodes by place, read when they are asked for."""
+
+    def __init__(self, episodes: Mapping[int, Episode]) -> None:
+        self._episodes = episodes
+
+    def __getitem__(self, place: int) -> Trace:
+        return self._episodes[place].trace
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self._episodes)
+
+    def __len__(self) -> int:
+        return len(self._episodes)
 
 
 def _parts(

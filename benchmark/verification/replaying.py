@@ -38,9 +38,13 @@ def replayed_lifts(bundle: Bundle, suite: Suite, rows: Sequence[int]) -> Iterato
     same_platform = is_same(other_platform(bundle))
     for row in rows:
         episode, index = bundle.episodes[row], bundle.indices[row]
-        alone = dataclasses.replace(bundle, episodes=(episode,), indices=(index,))
         (checked,) = simulate(
-            alone, suite, same_platform=same_platform, executor=None, progress=lambda done: None
+            bundle,
+            suite,
+            [row],
+            same_platform=same_platform,
+            executor=None,
+            progress=lambda done: None,
         )
         exact = same_platform or checked.bit_equal
         yield ReplayedLift(

@@ -5,7 +5,7 @@ from typing import Any, Final
 
 from colift.agents.humans import AsRecorded
 from colift.agents.humans.as_recorded import fastest_of
-from colift.benchmark.suites.catalogue import OF_RECORDINGS, PLAYED
+from colift.benchmark.suites.catalogue import FROM_FILES, PLAYED
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.suites.treatments import plain_treatments, treatments
 from colift.benchmark.tables.printing import counted, show
@@ -22,7 +22,7 @@ def recordings_text(suite: Suite) -> str:
     lifts, behaviour = counted(suite.size, "lift"), suite.scenarios[0].behaviour
     if behaviour == PLAYED:
         return f"Read {lifts}, played as they were."
-    if behaviour not in OF_RECORDINGS:
+    if behaviour not in FROM_FILES:
         return ""
     found = treatments(suite).values()
     parts = [

@@ -50,7 +50,7 @@ class EntrantResult:
     row: BoardRow | None
     refusal: str | None
     hidden_rmse_mm: tuple[float, ...] = dataclasses.field(default=(), repr=False)
-    """RMSE of each hidden episode, for the ranks. Never published."""
+    """RMSE of each hidden episode that counts, for the ranks. Never published."""
 
 
 def evaluate_entrant(
@@ -134,7 +134,7 @@ def evaluate_entrant(
             ),
         ),
         refusal=None,
-        hidden_rmse_mm=tuple(episode.scores["rmse_mm"] for episode in hidden.episodes),
+        hidden_rmse_mm=tuple(ScoreTable.of(hidden).rmse_mm),
     )
 
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from colift.base.registry import own_policies
 from colift.benchmark.bundle.files import EPISODES
 from colift.benchmark.episode.metric import LEADING
 from colift.benchmark.statistics import FloatArray
+from colift.benchmark.suites.policies import own_playing_on
 from colift.benchmark.suites.suite import Suite
 from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.practice.season_import import DATA, PlayedSeason
@@ -36,7 +36,7 @@ def shipped_scores(suite: Suite, folder: Path = DATA) -> dict[str, FloatArray]:
 
 
 def _current(season: PlayedSeason, suite: Suite) -> Iterator[tuple[str, FloatArray]]:
-    names = own_policies(suite.scenarios[0].task.name)
+    names = own_playing_on(suite)
     for each in season.played:
         name = each.entry.name
         if name in names and each.entry.submission == builtin_entrant(name).digest:

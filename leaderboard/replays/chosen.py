@@ -1,14 +1,15 @@
 """Replays of a run: the best, median and worst lift of each behaviour."""
 
 import contextlib
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 from colift.benchmark.bundle import FILES, Bundle, read_bundle
 from colift.benchmark.episode.loop import Episode
-from colift.leaderboard.replays.replay import Ghost, Which, play_ghost, replay_content
+from colift.leaderboard.replays.replay import Which, play_ghosts, replay_content
 from colift.leaderboard.storage.files import read_json, write_json
 
 
@@ -17,23 +18,30 @@ class ReplayChoice:
     """A lift that is shown, and the reason for its choice."""
 
     behaviour: str
-    which: Which
+    which: Which | None
+    """None of a lift that is shown for its session."""
     row: int
     """Index of the episode in the run."""
 
 
-def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
+def choose_replays(episodes: Sequence[Episode], session: int = 0) -> tuple[ReplayChoice, ...]:
     """Return the lifts that are shown, behaviour by behaviour in order of appearance.
 
     They are ordered by RMSE, equal ones by their place in the run; the median of an even number
     is the better of the middle two. A behaviour with two lifts has no median, one with a single
     lift has only that.
+
+    Of sessions of some lifts, all lifts of the session with the median RMSE are shown, and the
+    worst lift.
     """
     by_behaviour: dict[str, list[int]] = {}
     for row, episode in enumerate(episodes):
         by_behaviour.setdefault(episode.behaviour, []).append(row)
-    found = []
+    found: list[ReplayChoice] = []
     for behaviour, rows in by_behaviour.items():
+        if session and len(rows) % session == 0:
+            found += _of_sessions(episodes, behaviour, rows, session)
+            continue
         ordered = sorted(rows, key=lambda row: (episodes[row].scores["rmse_mm"], row))
         last = len(ordered) - 1
         indices: dict[Which, int] = {"best": 0, "median": last // 2, "worst": last}
@@ -46,6 +54,19 @@ def choose_replays(episodes: Sequence[Episode]) -> tuple[ReplayChoice, ...]:
             for which, index in indices.items()
         ]
     return tuple(found)
+
+
+def _of_sessions(
+    episodes: Sequence[Episode], behaviour: str, rows: Sequence[int], session: int
+) -> Iterator[ReplayChoice]:
+    def error(some: Sequence[int]) -> float:
+        return math.fsum(episodes[row].scores["rmse_mm"] for row in some)
+
+    sessions = sorted((rows[i : i + session] for i in range(0, len(rows), session)), key=error)
+    for row in sessions[(len(sessions) - 1) // 2]:
+        yield ReplayChoice(behaviour=behaviour, which=None, row=row)
+    worst = max(rows, key=lambda row: episodes[row].scores["rmse_mm"])
+    yield ReplayChoice(behaviour=behaviour, which="worst", row=worst)
 
 
 FILE: Final = "replays.json"
@@ -68,25 +89,21 @@ def chosen_replays(bundle: Bundle, policy: str) -> list[dict[str, Any]]:
         If the suite of the bundle cannot be made.
     """
     suite = bundle.recipe.suite()
-    ghosts: dict[int, Ghost] = {}
-    found = []
-    for choice in choose_replays(bundle.episodes):
-        index, episode = bundle.indices[choice.row], bundle.episodes[choice.row]
-        scenario = suite.at(index).scenario
-        if index not in ghosts:
-            ghosts[index] = play_ghost(scenario, episode.seed)
-        found.append(
-            replay_content(
-                episode,
-                scenario,
-                ghosts[index],
-                policy=policy,
-                suite=suite.name,
-                suite_digest=suite.digest,
-                which=choice.which,
-            )
+    choices = choose_replays(bundle.episodes, suite.session)
+    places = [bundle.indices[choice.row] for choice in choices]
+    ghosts = play_ghosts(suite, places)
+    return [
+        replay_content(
+            bundle.episodes[choice.row],
+            suite.at(place).scenario,
+            ghosts[place],
+            policy=policy,
+            suite=suite.name,
+            suite_digest=suite.digest,
+            which=choice.which,
         )
-    return found
+        for choice, place in zip(choices, places, strict=True)
+    ]
 
 
 def has_replays(bundle: Path) -> bool:

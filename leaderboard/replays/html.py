@@ -68,7 +68,7 @@ def replay_page(replays: Sequence[Mapping[str, Any]]) -> str:
 
 def replay_files(replays: Sequence[Mapping[str, Any]]) -> dict[str, Mapping[str, Any]]:
     """Return a policy's chosen replays by the name of each one's own file, without its suffix."""
-    return {f"{each['behaviour']}-{each['which']}": each for each in replays}
+    return {f"{each['behaviour']}-{each['which'] or each['lift']}": each for each in replays}
 
 
 @cache

@@ -8,6 +8,7 @@ policy, suite,           origin of the lift
 suite_digest
 behaviour, subject,      the episode; ``trial`` is the name of a recording, or empty
 trial, seed
+lift                     place of the lift in its session, from 1; only of sessions
 which                    ``best``, ``median`` or ``worst`` of its behaviour; null if not chosen
 failure                  reason of an early end, or null
 scores                   the metrics of the episode; null where there is none
@@ -43,13 +44,14 @@ Heights are within int16: 3.2 m. A number that a policy did not report is null.
 import contextlib
 import dataclasses
 import math
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
 import numpy as np
 from colift.agents.agent import FRAME
 from colift.agents.humans import Plan, Played, goal_error_mm
+from colift.agents.humans.serial import Serial
 from colift.benchmark.bundle import one_line
 from colift.benchmark.episode.blame import blaming_plugins
 from colift.benchmark.episode.drawn import drawn_hurdles
@@ -58,10 +60,12 @@ from colift.benchmark.episode.loop import Episode, run_episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.scenario import Scenario
 from colift.benchmark.episode.trace import Trace
+from colift.benchmark.execution.runner import finished
 from colift.benchmark.rendering.bodies import PERSON, no_picture, shown_body
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.results.goals import lift_goal_errors
 from colift.benchmark.robots.robot import DEFAULT_ROBOT
+from colift.benchmark.suites.suite import Due, Suite
 from numpy.typing import ArrayLike
 
 
@@ -85,8 +89,30 @@ def play_ghost(scenario: Scenario, seed: int) -> Ghost:
         If the task or the behaviour of another package failed.
     """
     with contextlib.closing(Lift(dataclasses.replace(scenario, partner="human"))) as lift:
-        with partner_spec(scenario.task).agent() as partner, blaming_plugins(scenario, seed):
+        with partner_spec(scenario).agent() as partner, blaming_plugins(scenario, seed):
             episode = run_episode(lift, partner, seed)
+        return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
+
+
+def play_ghosts(suite: Suite, places: Collection[int]) -> dict[int, Ghost]:
+    """Return the ghosts of the lifts at some places of a suite.
+
+    Two people in a session know each other from its lifts before.
+
+    Raises
+    ------
+    InputError
+        As :func:`play_ghost`.
+    """
+    people = suite.with_partner("human")
+    without = {*range(suite.size)}.difference(places)
+    played = dict(finished(partner_spec(suite.scenarios[0]), people, without=without))
+    return {place: _ghost(people.at(place), played[place]) for place in places}
+
+
+def _ghost(due: Due, episode: Episode) -> Ghost:
+    with contextlib.closing(Lift(due.scenario)) as lift, blaming_plugins(due.scenario, due.seed):
+        lift.reset(due.seed)
         return Ghost(episode=episode, plan=lift.plan, horizon=lift.horizon)
 
 
@@ -132,7 +158,8 @@ def replay_content(
         Reason for its choice.
     """
     trace = episode.trace
-    played = scenario.human if isinstance(scenario.human, Played) else None
+    human = scenario.human
+    played = human if isinstance(human, Played) else None
     internals = trace.internals
     human_human = ghost.episode
     return {
@@ -144,6 +171,7 @@ def replay_content(
         "subject": episode.subject,
         "trial": episode.trial,
         "seed": episode.seed,
+        **({"lift": human.place + 1} if isinstance(human, Serial) else {}),
         "which": which,
         "failure": None if episode.failure is None else one_line(episode.failure),
         "scores": {name: _score(value) for name, value in episode.scores.items()},

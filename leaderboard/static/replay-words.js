@@ -24,6 +24,7 @@
     ball_pause: "stops on the way, and alone knows where the ball should be",
     ball_smooth_shared: "lifts smoothly, and knows, like the robot, where the ball should be",
     ball_pause_shared: "stops on the way, and knows, like the robot, where the ball should be",
+    habitual: "lifts as usual, and remembers the lifts before",
     recorded: "repeats a recorded lift",
     as_recorded: "repeats a recorded lift at its own size and pace",
     cued: "follows cues",

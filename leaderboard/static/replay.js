@@ -36,7 +36,7 @@
     }
 
     name(replay) {
-      return [replay.behaviour, replay.which, replay.subject, replay.seed].filter((x) => x !== null).join("-");
+      return [replay.behaviour, replay.which || replay.lift || null, replay.subject, replay.seed].filter((x) => x !== null).join("-");
     }
 
     // The replay in the address, or the first one.
@@ -81,7 +81,7 @@
         ...of.map((r) => {
           const index = this.replays.indexOf(r);
           const button = element("button", { type: "button", "aria-pressed": index === this.index });
-          button.append(colift.WHICH[r.which] || r.subject, " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
+          button.append(colift.WHICH[r.which] || (r.lift ? `lift ${r.lift}` : r.subject), " ", element("span", {}, `${r.scores.rmse_mm.toFixed(1)} mm`));
           button.addEventListener("click", () => this.pick(index));
           return button;
         })
@@ -130,6 +130,7 @@
       const what = colift.BEHAVIOURS[now.behaviour] || words(now.behaviour);
       const lift = now.trial ? `recording ${now.trial}` : `seed ${now.seed}`;
       const chosen = now.which ? `${colift.SHOWN[now.which]} of its lifts with this behaviour: ` : "";
+      const place = now.lift ? `lift ${now.lift} with ` : "";
       const text = element("p", {});
       if (now.goals) {
         text.append("A person (blue end) and ", element("b", {}, colift.partnerWords(now.policy)), ` (orange end): ${colift.liveWords(now.trial)}.`);
@@ -137,7 +138,7 @@
         element("b", {}, now.policy),
         " (orange end) lifts a table with a person (blue end) who ",
         element("b", {}, what),
-        `. This is ${chosen}subject ${now.subject}, ${lift}.`
+        `. This is ${chosen}${place}subject ${now.subject}, ${lift}.`
       );
       const score = (label, value, kind) =>
         element("div", { class: kind }, element("dt", {}, label), element("dd", {}, value));

@@ -1,5 +1,6 @@
 """The replay beside the headline of a table: a typical lift of its first policy, and a still."""
 
+from collections.abc import Mapping
 from typing import Any, Final
 
 from colift.leaderboard.replays.chosen import made_replays
@@ -12,7 +13,8 @@ from colift.leaderboard.views.replays import replays_in
 def glance(visit: Visit, season: str) -> dict[str, Any] | None:
     """Return a lift of the first policy of a season; None if there is none to show.
 
-    It is the median lift with the suite's first behaviour, if there is one: a ``replay``, and the
+    It is the median lift with the suite's first behaviour, or the last of a median session, if
+    there is one: a ``replay``, and the
     ``data`` of the player, with the time ``raised_s`` at which the table is highest. ``digest`` is
     the policy's, ``scripts`` draw it. A service shows it once the replays are made.
     """
@@ -27,7 +29,7 @@ def glance(visit: Visit, season: str) -> dict[str, Any] | None:
     shown = [each for each in made if each["human"]]
     if not shown:
         return None
-    replay = min(shown, key=lambda each: each["which"] != "median")
+    replay = min(shown, key=_last_of_typical)
     return {
         "digest": digest,
         "scripts": (*SCENE, "glance.js"),
@@ -37,6 +39,11 @@ def glance(visit: Visit, season: str) -> dict[str, Any] | None:
             "raised_s": round((raised(replay) + 1) * replay["frame_s"], 2),
         },
     }
+
+
+def _last_of_typical(replay: Mapping[str, Any]) -> tuple[bool, int]:
+    """Return the smallest key for the median lift, or for the last one of the median session."""
+    return replay["which"] not in ("median", None), -replay.get("lift", 0)
 
 
 def _still(visit: Visit, season: str) -> Content:

@@ -10,6 +10,7 @@ from pathlib import Path
 from colift.benchmark.bundle.files import EPISODES, FILES, RESULTS
 from colift.benchmark.bundle.table import HUMAN_HUMAN_RMSE
 from colift.benchmark.episode.metric import LEADING
+from colift.benchmark.results.curve import SessionCurve
 from colift.benchmark.results.lifts import ScoredLift
 from colift.benchmark.results.parts import Part
 from colift.benchmark.results.scores import ScoreTable
@@ -39,6 +40,12 @@ def _stratum_scores(bundle: Path, _: tuple[int, int]) -> tuple[StratumScore, ...
     )
 
 
+def session_of(bundle: Path) -> SessionCurve | None:
+    """Return the errors lift by lift of a bundle; None if its lifts are independent."""
+    content = read_json(bundle / RESULTS).get("session")
+    return None if content is None else SessionCurve.read(content)
+
+
 def public_lifts(bundle: Path) -> tuple[ScoredLift, ...]:
     """Return the lifts of a bundle, in the suite's order; none if it has only results."""
     return _public_lifts(bundle, version(bundle))
@@ -63,8 +70,13 @@ def _public_lifts(bundle: Path, _: tuple[int, int]) -> tuple[ScoredLift, ...]:
 
 
 def public_scores(bundle: Path) -> ScoreTable:
-    """Return the RMSE of the lifts of a bundle, in the suite's order."""
-    lifts = public_lifts(bundle)
+    """Return the RMSE of the lifts of a bundle that count, in the suite's order."""
+    lifts, session = public_lifts(bundle), session_of(bundle)
+    if session is not None:
+        length = len(session.rmse_mm)
+        lifts = tuple(
+            lift for i, lift in enumerate(lifts) if i % length >= length - session.counted
+        )
     return ScoreTable(
         strata=tuple((lift.behaviour, lift.subject) for lift in lifts),
         values={LEADING: tuple(lift.rmse_mm for lift in lifts)},

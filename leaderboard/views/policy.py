@@ -6,13 +6,20 @@ from collections.abc import Sequence
 from typing import Final
 
 from colift.benchmark.rendering.axis import make_axis
+from colift.benchmark.results.curve import session_axis
 from colift.benchmark.results.lifts import failures_by_reason, worst_of_behaviours
 from colift.benchmark.results.parts import part_scores
 from colift.leaderboard.client import API
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.core.standings import RANKED, RankedRow
 from colift.leaderboard.database.schema import entries
-from colift.leaderboard.views.lifts import is_whole, part_estimate, public_lifts, stratum_scores
+from colift.leaderboard.views.lifts import (
+    is_whole,
+    part_estimate,
+    public_lifts,
+    session_of,
+    stratum_scores,
+)
 from colift.leaderboard.views.page import Content, NoPageError, Page, Visit, find_season
 from colift.leaderboard.views.replays import watchable
 
@@ -55,6 +62,7 @@ def policy_page(visit: Visit, season: str, digest: str) -> Content:
             () if other is None else stratum_scores(other),
         )
     )
+    curve = None if bundle is None else session_of(bundle)
     better, worse = _neighbours(board, season, fellows if mine.ranked else (), digest)
     public = mine.row.public
     return {
@@ -66,6 +74,8 @@ def policy_page(visit: Visit, season: str, digest: str) -> Content:
         "axis": make_axis(
             [each.rmse_mm for each in parts], [mark for each in parts for mark in each.marks]
         ),
+        "session": curve,
+        "session_axis": session_axis(curve),
         "never_lifted": public.failed == public.episodes,
         "failures": failures_by_reason(lifts),
         "worst": worst_of_behaviours(lifts),

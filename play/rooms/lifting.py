@@ -1,6 +1,5 @@
 """A lift under way: hands, frames at their times, and the evidence at its end."""
 
-import contextlib
 import dataclasses
 import json
 from collections.abc import Mapping
@@ -8,12 +7,9 @@ from typing import Any
 
 from colift.agents.agent import FRAME, Agent
 from colift.agents.humans import Cued, Hand, PersonAsRobot, Played
-from colift.agents.spec import Paced
-from colift.base.errors import EvaluatorFault
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import entered
 from colift.benchmark.execution.runner import Run
 from colift.benchmark.real_lifts.suites import SEED
 from colift.benchmark.suites.suite import Suite
@@ -34,6 +30,8 @@ class Lifting:
         The lift of the scenario.
     partner
         The holder of the far end.
+    agent
+        The partner's agent; None if a second person acts.
     grips
         The closed hand of each end that a person holds: 0 the human's, 1 the far one.
     begin
@@ -46,6 +44,7 @@ class Lifting:
         self,
         lift: Lift,
         partner: LivePartner,
+        agent: Agent | None,
         grips: Mapping[int, Grip],
         *,
         begin: float,
@@ -62,13 +61,10 @@ class Lifting:
         self._lift = lift
         self._partner = partner
         self._scenario = lift.scenario
-        self._stack = contextlib.ExitStack()
         far = self.hands.get(1)
         holder: Agent | Hand
-        if partner.spec is not None:
-            period = lift.scenario.control_period
-            spec = partner.spec.paced(period) if isinstance(partner.spec, Paced) else partner.spec
-            holder = entered(self._stack, spec)
+        if agent is not None:
+            holder = agent
         elif far is not None and lift.seat.is_robot:
             holder = PersonAsRobot(far, lift.frames_per_step, lift.scenario.control_period)
         else:
@@ -167,7 +163,5 @@ class Lifting:
         }
 
     def close(self) -> None:
-        """End the policy and release the world."""
+        """Release the world."""
         self._lift.close()
-        with contextlib.suppress(EvaluatorFault):
-            self._stack.close()

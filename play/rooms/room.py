@@ -26,6 +26,7 @@ from colift.play.rooms.choice import PERSON, PERSON_AS_ROBOT, SIMULATED, HostCho
 from colift.play.rooms.grip import Grip
 from colift.play.rooms.lifting import Lifting
 from colift.play.rooms.messages import parse_samples
+from colift.play.rooms.partnership import LIFTS, Partnership
 from colift.play.rooms.scenarios import cue_of, live_scenario
 from colift.play.rooms.seats import ALL, Message, SeatedPerson, Seats
 from colift.play.rooms.standing import Standing, ghost_rmse, rehearse
@@ -62,6 +63,7 @@ class Room:
         self._seats = Seats()
         self._choice = HostChoice.first(config.policies, config.robot)
         self._prepared = False
+        self._partnership: Partnership | None = None
         self._lifting: Lifting | None = None
         self._number = self._session.next_number()
         self._last: tuple[int, Path] | None = None
@@ -143,12 +145,14 @@ class Room:
         if seat != 0 or self._lifting is not None:
             raise InputError("only the host may choose the partner, and not during a lift")
         self._choice, self._prepared = HostChoice.parse(content, self._policies, self._robot), False
+        self._part()
         return self._state()
 
     def _swap(self, seat: int) -> list[Message]:
         if seat != 0 or self._lifting is not None:
             raise InputError("only the host may swap the ends, and not during a lift")
         self._seats.swapped = not self._seats.swapped
+        self._part()
         return self._state()
 
     def _grip(self, seat: int, grip: Grip, now: float) -> list[Message]:
@@ -190,15 +194,18 @@ class Room:
 
     def _begin(self, grips: Mapping[int, Grip], now: float) -> list[Message]:
         delay = self._seats.delay(self._choice.partner)
+        scenario = self._scenario()
         try:
             self._lifting = Lifting(
-                Lift(self._scenario()),
+                Lift(scenario),
                 self._choice.partner,
+                self._together(scenario.control_period).agent,
                 grips,
                 begin=now + AHEAD_S,
                 delay=delay,
             )
         except EvaluatorFault as error:
+            self._part()
             return self._void(f"the partner could not begin: {error_text(error)}")
         start = {
             "type": "start",
@@ -224,12 +231,27 @@ class Room:
             for end, message in lifting.messages(now):
                 found.append((ends[end], message))
         except EvaluatorFault as error:
+            self._part()
             return self._void(f"the partner's process ended: {error}")
         if lifting.punctuality.void:
             found += self._void(f"this machine was too busy: {lifting.punctuality}")
         elif now - max(self._seats.heard(self._choice.partner), lifting.begin) > SILENT_S:
             found += self._void(f"nothing was heard of a person's page for {SILENT_S:g} s")
         return found
+
+    def _together(self, period: float) -> Partnership:
+        """Return the partnership of the next lift."""
+        if self._partnership is not None and self._partnership.over:
+            self._part()
+        if self._partnership is None:
+            self._partnership = Partnership(self._choice.partner, period)
+        return self._partnership
+
+    def _part(self) -> None:
+        """End the partnership: the next lift is the first with its partner."""
+        if self._partnership is not None:
+            self._partnership.close()
+        self._partnership = None
 
     def _void(self, reason: str, **measured: Any) -> list[Message]:
         """End the lift without a result; it is repeated with the same cue."""
@@ -264,10 +286,13 @@ class Room:
                 self._policies,
                 lag=lifting.lag,
             )
+        rmse_mm = run.episodes[0].scores["rmse_mm"]
+        session = self._counted(rmse_mm, failed=is_policy_failure(failure))
         end = {
             "type": "end",
             "lift": number,
-            "rmse_mm": run.episodes[0].scores["rmse_mm"],
+            "rmse_mm": rmse_mm,
+            "session": {"lifts": LIFTS, "rmse_mm": session},
             "goal_error_mm": goal_error_mm(goals) if goals else None,
             "failure": failure,
             "compared": self._standing is not None,
@@ -276,6 +301,15 @@ class Room:
             "folder": f"{folder.parent.name}/{folder.name}",
         }
         return [(ALL, json.dumps(end)), *self._state()]
+
+    def _counted(self, rmse_mm: float, *, failed: bool) -> list[float]:
+        """Return the errors of the session with this lift; a policy that failed is made anew."""
+        assert self._partnership is not None
+        self._partnership.errors.append(rmse_mm)
+        errors = [*self._partnership.errors]
+        if failed:
+            self._part()
+        return errors
 
     def work(self) -> list[Message]:
         """Do some work between lifts: score the last one, warm up the partner, compare.
@@ -316,13 +350,13 @@ class Room:
         )
 
     def close(self) -> None:
-        """End the lift under way."""
-        if self._lifting is None:
-            return
-        if self._lifting.over:
-            self._end(self._lifting)
-        else:
-            self._void("the room was closed")
+        """End the lift under way, and the partner."""
+        if self._lifting is not None:
+            if self._lifting.over:
+                self._end(self._lifting)
+            else:
+                self._void("the room was closed")
+        self._part()
 
 
 def _goals(run: Run) -> tuple[GoalError, ...]:

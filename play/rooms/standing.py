@@ -8,7 +8,7 @@ from colift.agents.humans import Cued
 from colift.agents.spec import AgentSpec
 from colift.base.errors import EvaluatorFault
 from colift.benchmark.episode.scenario import LATENCY, Scenario
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.real_lifts.suites import SEED
 from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.play.rooms.choice import LivePartner, in_frames

@@ -54,7 +54,8 @@ class Evaluation:
     def rows(self) -> list[dict[str, object]]:
         """Return one row per lift, as in ``episodes.csv``: the lift and its scores."""
         suite = self.run.suite
-        played, people = treated(suite), self.results.baselines[HUMAN_HUMAN].rmse_mm
+        people = self.results.baselines[HUMAN_HUMAN].lifts_at(self.run.places)
+        played = treated(suite)
         return [
             table_row(episode, suite.metrics, played, mm)
             for episode, mm in zip(self.run.episodes, people, strict=True)

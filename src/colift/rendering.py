@@ -11,7 +11,7 @@ from colift.base.registry import check_plays
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import CONTROL_PERIOD, LATENCY, Scenario
 from colift.benchmark.episode.turns import is_policy_failure
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.rendering.cameras import check_camera
 from colift.benchmark.robots.robot import DEFAULT_ROBOT, make_robot
 from colift.benchmark.suites.catalogue import make_scenario, make_task

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colift.agents.actions import ActionError, checked_action
-from colift.agents.agent import FRAME, Agent, Explaining, RobotObservation
+from colift.agents.agent import FRAME, Agent, Explaining, Remembering, RobotObservation
 from colift.agents.humans import GOAL_RANGE, SUBJECTS, Behaviour, Plan, Subject
 from colift.agents.policies.copy import Copy
 from colift.base.errors import InputError, PolicyError
@@ -59,7 +59,8 @@ def check_policy(make: Callable[[], Agent], task: Task = LEVEL) -> None:
     """Check a robot policy on the observations of a made-up lift, or of a task's own lifts.
 
     It must return one finite number per step in double precision, change no observation, keep
-    nothing from one episode to the next, and share no state with another object of its class. If
+    nothing from one episode to the next, or, if it has ``begin_session``, from one session to the
+    next, and share no state with another object of its class. If
     it has internals, they must be finite and have the same names after every action.
 
     Parameters
@@ -97,10 +98,16 @@ def _check_policy(policy: Agent, make: Callable[[], Agent], task: Task) -> None:
     _require(np.array_equal(seen, before), "act must leave the observation unchanged")
     used = make()
     _actions(used, others[::-1])
-    _require(np.array_equal(_actions(used, seen), alone), "reset must clear the last episode")
+    remembers = isinstance(used, Remembering)
+    cleared = (
+        "begin_session must clear the last session"
+        if remembers
+        else "reset must clear the last episode"
+    )
+    _require(np.array_equal(_actions(used, seen), alone), cleared)
     one, other = make(), make()
-    one.reset(3)
-    other.reset(4)
+    _begin(one, 3)
+    _begin(other, 4)
     together = []
     for view, elsewhere in zip(seen, others, strict=True):
         together.append(np.array(one.act(view), dtype=np.float64).reshape(1))
@@ -113,7 +120,7 @@ def _check_policy(policy: Agent, make: Callable[[], Agent], task: Task) -> None:
 
 def _check_internals(policy: Explaining, seen: NDArray[np.float64]) -> None:
     assert isinstance(policy, Agent)
-    policy.reset(0)
+    _begin(policy, 0)
     found: list[Mapping[str, float]] = []
     for view in seen:
         policy.act(view)
@@ -334,9 +341,16 @@ def _made_up(seed: int) -> NDArray[np.float64]:
     return seen
 
 
+def _begin(policy: Agent, seed: int) -> None:
+    """Begin a lift with a new person."""
+    if isinstance(policy, Remembering):
+        policy.begin_session()
+    policy.reset(seed)
+
+
 def _actions(policy: Agent, seen: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return a policy's actions in an episode, each checked, shape (n, 1)."""
-    policy.reset(3)
+    _begin(policy, 3)
     kept = []
     for view in seen:
         action = policy.act(view)

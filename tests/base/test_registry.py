@@ -10,6 +10,7 @@ from colift.agents.policies.hold import Hold
 from colift.base.errors import InputError, Remedy
 from colift.base.registry import (
     POLICIES,
+    REMEMBERING,
     TASKS,
     _contested,
     entries,
@@ -124,7 +125,8 @@ def test_names_are_in_order():
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_policy_conforms_and_has_a_line_to_be_listed(name):
-    task = entries(POLICIES)[name].group.removeprefix(POLICIES).lstrip(".") or "level"
+    group = entries(POLICIES)[name].group
+    task = "level" if group in (POLICIES, REMEMBERING) else group.removeprefix(f"{POLICIES}.")
     check_policy(PolicySpec(text=name).make, make_task(task))
     assert summary(lookup(POLICIES, name)).endswith((".", ")."))
 

@@ -28,17 +28,23 @@ SHIPPED = {"binaries", "linear_algebra", "numpy", "pybullet", "python"}
 SUITES = {"quick-v1": "level", "agree-v1": "agree", "ball-v1": "ball", "intent-v1": "intent"}
 """The suites in which every policy of a task plays, and this task."""
 
-OTHERS = {"paper-v1": 2, "robust-v1": 41, "standard-v1": 31}
+OTHERS = {"paper-v1": 2, "robust-v1": 41, "session-v1": 20, "standard-v1": 31}
 """The other suites, and the distance of the lifts that are played."""
 
 SOME = ("copy", "blend", "learned")
 """The policies that play them."""
 
+REMEMBERING = (
+    *("acquainted", "recall", "refined"),
+    *("session_anticipate", "session_blend", "session_linear"),
+)
+"""The policies that play whole sessions."""
+
 
 def players(suite):
     """Return the policies that play a suite here: of the tasks, those that can do no other."""
     if suite in OTHERS:
-        return [HUMAN_HUMAN, *SOME]
+        return [HUMAN_HUMAN, *(REMEMBERING if suite == "session-v1" else SOME)]
     task = SUITES[suite]
     level = {*own_policies("level")} - {"copy"} if task != "level" else set()
     return [HUMAN_HUMAN, *(name for name in own_policies(task) if name not in level)]
@@ -51,7 +57,8 @@ def lifts(name):
     """Return suites of some lifts that together have several behaviours, people and timings."""
     suite = make_suite(name)
     if name in OTHERS:
-        return (replace(suite, scenarios=suite.scenarios[:: OTHERS[name]], seeds=suite.seeds[:1]),)
+        seeds = suite.seeds if suite.session else suite.seeds[:1]
+        return (replace(suite, scenarios=suite.scenarios[:: OTHERS[name]], seeds=seeds),)
     if SUITES[name] == "level":
         return suite, replace(suite, seeds=(3,)).with_timing(0.15, 0.05)
     scenarios = suite.scenarios[::8]

@@ -91,7 +91,10 @@ def test_list_names_everything(colift):
     [
         (["run", "nonesuch"], "unknown policy 'nonesuch' ('colift list' lists all names)"),
         (["run", "pose"], "did you mean pose_admittance or pose_bayes or pose_learned?"),
-        (["run", "copy", "--suite", "nonesuch"], "paper-v1, quick-v1, robust-v1, standard-v1"),
+        (
+            ["run", "copy", "--suite", "nonesuch"],
+            "robust-v1, session-v1, standard-v1",
+        ),
         (["run", "copy", "--seeds", "5:5"], "5:5"),
         (["run", "copy", "--seeds", "5"], "A:B"),
         (["run", "copy", "--seeds=-1:3"], "A:B"),

@@ -64,7 +64,7 @@ def test_files_and_json_have_each_lift_beside_the_simulated_one(colift, file, tm
     assert rmse["over_pairs"]["ci95"][0] < rmse["recorded"]["ci95"][0]
     again = colift("pairs", file, "--out", tmp_path / "again", "--json", "--jobs", "2")
     assert again.stdout == done.stdout
-    for name in ("pairs.csv", "pairs.png"):
+    for name in ("pairs.csv", "pairs.png", "pairs.svg", "pairs.pdf"):
         assert (tmp_path / "again" / name).read_bytes() == (tmp_path / "out" / name).read_bytes()
 
 

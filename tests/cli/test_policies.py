@@ -11,7 +11,7 @@ from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.agents.submissions.trusted import TrustedSubmission
 from colift.base.errors import InputError
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.cli.run import run
 

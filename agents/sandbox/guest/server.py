@@ -4,8 +4,9 @@ A policy is loaded once: imported, made and reset, before there is a lift. Then 
 behind it, and each lift is a fork of that state, behind a second filter that leaves it only its
 connection; see :mod:`.gate`.
 
-Requests are ``[serial, "make"]``, ``[serial, "describe"]`` and ``[serial, "reset", seed]``, and in
-a lift ``[serial, "act", numbers]``. The answer is ``[serial, "made", explains]``,
+Requests are ``[serial, "make"]``, ``[serial, "describe"]`` and ``[serial, "reset", seed]``, and
+after the fork ``[serial, "act", numbers]``, or ``[serial, "reset", seed]`` for the next lift of a
+session. The answer is ``[serial, "made", explains]``,
 ``[serial, "described", line, parameters]``, ``[serial, "ready"]``, ``[serial, "action", numbers]``
 (with names and values of the internals, if the policy has any) or ``[serial, "failed", reason]``.
 A byte with two files, the lift's end of its connection and its output, orders a lift.
@@ -29,7 +30,7 @@ import numpy.ma
 import numpy.polynomial
 import numpy.random
 from colift.agents.actions import ActionError, checked_action
-from colift.agents.agent import Agent, Explaining
+from colift.agents.agent import Agent, Explaining, Remembering
 from colift.agents.loading.description import described
 from colift.agents.loading.late import import_late
 from colift.agents.loading.parameters import make_with, read_values
@@ -132,11 +133,11 @@ class _Server:
         self._channel.send(self._ready)
 
     def act(self) -> None:
-        """Answer requests of a lift."""
+        """Answer requests of a lift, and of those that follow it in its session."""
         self._inside = True
         while True:
-            serial, _, observation = self._channel.receive()
-            self._send(serial, self._answer("act", [observation]))
+            serial, kind, value = self._channel.receive()
+            self._send(serial, self._answer("act" if kind == "act" else "reset", [value]))
 
     def _send(self, serial: int, answer: list[Any]) -> None:
         try:
@@ -170,6 +171,8 @@ class _Server:
         policy, parameters = _load(self._policy.origin), self._policy.parameters
         values = read_values(policy, parameters) if parameters else {}
         self._agent = make_with(policy, values) if values else policy()
+        if isinstance(self._agent, Remembering):
+            self._agent.begin_session()
         self._explains = isinstance(self._agent, Explaining)
         return ["made", self._explains]
 

@@ -63,7 +63,7 @@ class Caller:
 
 
 class RemoteAgent:
-    """An agent whose policy runs in a sandbox, each episode in a process of its own.
+    """An agent whose policy runs in a sandbox, each session in a process of its own.
 
     Its methods raise PolicyError if the policy could not be made, fails or gives an invalid answer,
     and EvaluatorFault if the sandbox fails. Its actions have ``size`` numbers.
@@ -102,7 +102,7 @@ class RemoteAgent:
         return f"{self._cell.printed}{lift}"[-OUTPUT:]
 
     def reset(self, seed: int) -> None:
-        """Begin an episode."""
+        """Begin a session, with its first lift."""
         self._end()
         self.failure = None
         if self._cell.seed not in (None, seed):
@@ -113,6 +113,12 @@ class RemoteAgent:
         self._processor = -1
         if self._lift.failure is not None:
             self._raise(self._lift.failure)
+
+    def resume(self, seed: int) -> None:
+        """Begin the next lift of the session, in the same process."""
+        if self._lift is None:
+            raise PolicyError("resume before reset")
+        self._asked(self._lift, ["reset", seed], "ready")
 
     def _change_cell(self, *seeds: int | None) -> None:
         self._sandbox.give(self._load, self._cell)
@@ -131,7 +137,7 @@ class RemoteAgent:
         if here != self._processor:
             self._processor = here
             self._lift.status.order(str(here))
-        content = self._asked(self._lift, ["act", observation.tolist()])
+        content = self._asked(self._lift, ["act", observation.tolist()], "action")
         self._caller.end()
         numbers, names, values = (*content, None, None, None)[:3]
         if (
@@ -164,8 +170,8 @@ class RemoteAgent:
     def _keep(self, names: Any, values: Any) -> None:
         """Keep the internals of an action; this agent has none."""
 
-    def _asked(self, lift: Connection, request: list[Any]) -> list[Any]:
-        """Return the content of the answer to a request for an action."""
+    def _asked(self, lift: Connection, request: list[Any], due: str) -> list[Any]:
+        """Return the content of the answer to a request, which is of the kind that is due."""
         if self.failure is not None:
             raise self.failure
         limits = self._limits
@@ -175,8 +181,8 @@ class RemoteAgent:
             self._raise(error)
         if answer == "failed" and len(content) == 1 and type(content[0]) is str:
             self._fail(content[0])
-        if answer != "action":
-            self._fail(f"answered {answer!r:.40} where 'action' was due")
+        if answer != due:
+            self._fail(f"answered {answer!r:.40} where {due!r} was due")
         return content
 
     def _fail(self, reason: str) -> NoReturn:

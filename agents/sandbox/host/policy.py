@@ -66,9 +66,10 @@ class SandboxedPolicy:
         """Return the same policy with its submission in another folder."""
         return replace(self, folder=folder)
 
-    def paced(self, period: float) -> "SandboxedPolicy":
-        """Return the same policy with the budgets of a control period [s]."""
-        return replace(self, limits=replace(self.limits, period=period))
+    def paced(self, period: float, lifts: int = 1) -> "SandboxedPolicy":
+        """Return the same policy with the budgets of a control period [s], and of many lifts."""
+        cpu = self.limits.cpu_seconds * lifts
+        return replace(self, limits=replace(self.limits, period=period, cpu_seconds=cpu))
 
     def digest(self) -> str:
         """Return the hash of the policy's source."""

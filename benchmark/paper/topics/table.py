@@ -118,8 +118,8 @@ def _practised(table: TableOne) -> Claim:
         values={f"{row.subject}_mm": row.blend.mean for row in table.rows},
         holds=best.subject == "S1",
         fitted=True,
-        note="The simulated S1 has the lowest lift, fitted to the paper's subject 1; simulated "
-        "subjects do not learn.",
+        note="The simulated S1 has the lowest lift, fitted to the paper's subject 1, and no more "
+        "practice than the others.",
     )
 
 

@@ -65,8 +65,35 @@
       this.part("best").textContent = this.best(end, partner);
       this.part("standing").textContent = "";
       this.part("policies").replaceChildren();
+      this.together(end.session);
       this.part("watching").textContent = "";
       this.part("comparing").hidden = role === null || !end.compared;
+    }
+
+    // The lifts in a row with this partner, which may have learned from them; open when all are done.
+    together({ lifts, rmse_mm }) {
+      const done = rmse_mm.length;
+      const section = this.part("together");
+      section.hidden = done < 2;
+      section.open = done >= lifts;
+      this.part("together-title").textContent = `Lift by lift: ${done} of ${lifts} with ${play.partnerWords(this.partner)}`;
+      this.bars(
+        "together-lifts",
+        rmse_mm.map((value, i) => ({ name: `lift ${i + 1}`, rmse_mm: value, own: i === done - 1 })),
+        Math.max(...rmse_mm, 1e-9)
+      );
+    }
+
+    // A list of names with errors as bars, as long as most at most.
+    bars(part, rows, most) {
+      this.part(part).replaceChildren(
+        ...rows.map((row) => {
+          const bar = element("progress", { max: most, value: Math.min(row.rmse_mm, most), "aria-hidden": "true" });
+          const line = element("li", {}, element("span", {}, row.name), bar, element("b", {}, mm(row.rmse_mm)));
+          line.classList.toggle("own", row.own);
+          return line;
+        })
+      );
     }
 
     // Of the lifts that count in this session; what was kept without a goal error may be void.
@@ -93,14 +120,7 @@
       rows.sort((a, b) => a.rmse_mm - b.rmse_mm);
       // A policy that never moves must not make all others look alike.
       const most = Math.max(Math.min(rows[rows.length - 1].rmse_mm, 3 * this.end.rmse_mm), 1e-9);
-      this.part("policies").replaceChildren(
-        ...rows.map((row) => {
-          const bar = element("progress", { max: most, value: Math.min(row.rmse_mm, most), "aria-hidden": "true" });
-          const line = element("li", {}, element("span", {}, row.name), bar, element("b", {}, mm(row.rmse_mm)));
-          line.classList.toggle("own", row.name === this.partner);
-          return line;
-        })
-      );
+      this.bars("policies", rows.map((row) => ({ ...row, own: row.name === this.partner })), most);
     }
 
     async watch() {

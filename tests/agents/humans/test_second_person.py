@@ -9,7 +9,7 @@ from colift.agents.humans import SECOND_PERSON, SecondPerson
 from colift.agents.humans.felt import FELT_HEIGHT, SUPPORT
 from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import InMemorySpec
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.world.table import GRIP_STIFFNESS, TABLE_LENGTH, WEIGHT_SHARE
 

@@ -10,7 +10,7 @@ from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.sandbox.protocol import LIMITS, Limits
 from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import CONTROL_PERIOD
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 
 

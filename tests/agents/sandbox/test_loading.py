@@ -11,7 +11,7 @@ from colift.agents.submissions.choice import choose_policy
 from colift.agents.submissions.new import write_template
 from colift.base.errors import PolicyError
 from colift.base.registry import POLICIES, own_entries
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.suite import make_suite
 
 from .keeping import COUNTING

@@ -3,7 +3,7 @@
 import pytest
 from colift.agents.sandbox.host.policy import SandboxedPolicy, close_sandboxes
 from colift.agents.sandbox.host.view import View
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 
 

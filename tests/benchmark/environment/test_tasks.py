@@ -7,7 +7,7 @@ import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
 from colift.benchmark.environment import ParallelLift, RobotEnv, parallel_env
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario, make_task
 from colift.benchmark.tasks.intent.task import Intent
 from colift.benchmark.tasks.level.task import Level

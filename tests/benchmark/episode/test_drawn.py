@@ -6,7 +6,7 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.drawn import DrawnSeries, drawn_heights, drawn_hurdles
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 
 BAR = DrawnSeries(name="bar", label="bar", where="robot", stay=0.05)

@@ -12,7 +12,7 @@ from colift.benchmark.episode import kept_world
 from colift.benchmark.episode.kept_world import drop_kept_world, lift_in_kept_world
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite

@@ -163,7 +163,7 @@ def test_another_axis_is_named(tmp_path):
     times, heights = files.lift(100.0)
     placed = files.points(heights, "Y", ("RHand",))
     path.write_bytes(files.plain(times, placed, Dialect(unit="m"), 100.0))
-    assert "is up Y, along which it rises 0.29 m? --up Y" in refusal(path)
+    assert "but 0.29 m along Y (--up Y?)" in refusal(path)
     placed["RHand"][:, 2] += 0.3 * heights
     path.write_bytes(files.plain(times, placed, Dialect(unit="m"), 100.0))
     text = refusal(path)

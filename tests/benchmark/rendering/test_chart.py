@@ -9,7 +9,7 @@ from colift.benchmark.episode.drawn import DrawnSeries
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.metric import drawn_series
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.rendering.chart import Chart, Pen
 from colift.benchmark.suites.catalogue import make_scenario
 from matplotlib.axes import Axes

@@ -12,7 +12,7 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.rendering.gltf import check_model, write_model
 from colift.benchmark.results.baselines import partner_spec
 from colift.benchmark.suites.catalogue import make_scenario
@@ -69,7 +69,7 @@ class Model:
 
 def written(path: Path, policy: str, scenario: Scenario) -> tuple[Model, Episode]:
     people = scenario.partner == "human"
-    spec = partner_spec(scenario.task) if people else PolicySpec(text=policy)
+    spec = partner_spec(scenario) if people else PolicySpec(text=policy)
     episode = next(play(spec, scenario, (0,)))
     write_model(path, episode, scenario, policy)
     return Model(path), episode

@@ -7,7 +7,7 @@ from colift.agents.spec import AgentSpec
 from colift.agents.submissions.choice import checked_policy
 from colift.benchmark.episode.loop import Episode
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.rendering.figures import write_all
 from colift.benchmark.rendering.layout import COLUMN, LAYOUTS, PAGE, Layout
 from colift.benchmark.rendering.lift_figure import lift_figure, lift_title

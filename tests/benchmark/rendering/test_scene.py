@@ -1,3 +1,5 @@
+import gc
+import tracemalloc
 from collections.abc import Iterator
 
 import numpy as np
@@ -181,3 +183,16 @@ def test_without_a_display_all_is_drawn_headless(
     assert scene.picture(32, 20).shape == (20, 32, 3)
     scene.close()
     assert "DISPLAY" in caplog.text
+
+
+def test_further_scenes_take_no_more_memory() -> None:
+    Scene("nao").close()
+    tracemalloc.start()
+    try:
+        for _ in range(2):
+            Scene("nao").close()
+        gc.collect()
+        kept, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert kept < 1 << 20

@@ -60,7 +60,9 @@ def test_every_suite_has_its_baselines_shipped(name):
     references = shipped_references(suite)
     assert set(references) == set(suite_references(suite)) >= {"oracle"}
     for baseline in (*shipped.values(), *references.values()):
-        assert len(baseline.rmse_mm) == len(baseline.strata) == suite.size
+        counted = sum(map(suite.counts, range(suite.size)))
+        assert len(baseline.rmse_mm) == len(baseline.strata) == counted
+        assert len(baseline.lifts_mm) == suite.size
         assert baseline.means.keys() == {metric.name for metric in on_boards(suite.metrics)}
 
 

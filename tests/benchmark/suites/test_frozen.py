@@ -24,6 +24,7 @@ FROZEN = {
     "paper-v1": "8ea792f9a1017b20",
     "quick-v1": "4f2c15b4ce4d1f34",
     "robust-v1": "150443b2ae8b4b61",
+    "session-v1": "4a4ef7445f44c76b",
     "standard-v1": "ffc0dd46fab2d9c8",
 }
 
@@ -33,6 +34,7 @@ DRAWN = {
     "intent-v1": 25,
     "quick-v1": 3,
     "robust-v1": 40,
+    "session-v1": 40,
     "standard-v1": 75,
 }
 """Number of people of each suite of drawn people."""
@@ -48,11 +50,11 @@ def test_every_suite_is_frozen():
 
 
 @pytest.mark.parametrize(("name", "count"), DRAWN.items())
-def test_each_of_many_distinct_people_plays_every_behaviour_once(name, count):
+def test_each_of_many_distinct_people_plays_every_behaviour_once_or_a_session(name, count):
     suite = make_suite(name)
     behaviours = {each.behaviour for each in suite.scenarios}
-    assert suite.seeds == (0,)
-    assert suite.size == count * len(behaviours)
+    assert suite.seeds == tuple(range(suite.session or 1))
+    assert suite.size == count * len(behaviours) * len(suite.seeds)
     assert len({*people(name)}) == count
     played = {(each.behaviour, each.subject.name) for each in suite.scenarios}
     names = {each.name for each in people(name)}

@@ -58,6 +58,7 @@ def test_the_suites_have_the_sizes_that_their_descriptions_say():
     assert {name: make_suite(name).size for name in own_entries(SUITES)} == {
         "standard-v1": 75 * 4,
         "robust-v1": 40 * 7,
+        "session-v1": 40 * 10,
         "paper-v1": 5 * 10,
         "quick-v1": 3 * 4,
         "agree-v1": 25 * 6,
@@ -162,7 +163,7 @@ def test_a_suite_that_no_table_can_show_is_refused(change, told):
 
 
 def test_an_unknown_suite_is_refused_with_the_names():
-    with pytest.raises(InputError, match="paper-v1, quick-v1, robust-v1, standard-v1"):
+    with pytest.raises(InputError, match="paper-v1, quick-v1, robust-v1, session-v1, standard-v1"):
         make_suite("nonesuch")
 
 

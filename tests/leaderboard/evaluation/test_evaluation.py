@@ -12,10 +12,11 @@ from colift.agents.spec import InProcess
 from colift.base.errors import EvaluatorFault, InputError
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.turns import policy_seed
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import play_baselines
 from colift.benchmark.suites.hidden import commitment
+from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.verification.audit import RULE
 from colift.leaderboard.evaluation.evaluate import (
     episode_count,
@@ -296,3 +297,22 @@ def test_an_interrupted_evaluation_gives_no_row(season, human_human, copy, tmp_p
         evaluate_entrant(
             copy, season, human_human, tmp_path / "bundle", watch=Callbacks(progress=interrupt)
         )
+
+
+def test_sessions_are_ranked_by_the_lifts_that_count(tmp_path):
+    whole = make_suite("session-v1")
+    suite = dataclasses.replace(whole, name="few", scenarios=whole.scenarios[:2])
+    season = dataclasses.replace(make_season(), suite=suite)
+    people, told = play_human_human(season), []
+    found = evaluate_entrant(
+        make_entrant(PolicySpec(text="recall")),
+        season,
+        people,
+        tmp_path / "bundle",
+        watch=Callbacks(progress=told.append),
+    )
+    assert found.refusal is None
+    assert sum(told) == episode_count(season)
+    assert len(found.hidden_rmse_mm) == len(people.units.unit) == 2 * 3
+    assert found.row.hidden.rmse_mm.mean == round(np.mean(found.hidden_rmse_mm), 2)
+    assert len(read_bundle(tmp_path / "bundle").episodes) == 20

@@ -8,11 +8,12 @@ from datetime import UTC, datetime
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
-from colift.base.registry import made_for, own_policies
+from colift.base.registry import own_policies
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.references.best_known import best_known_run
 from colift.benchmark.references.catalogue import suite_references
 from colift.benchmark.results.scores import ScoreTable
+from colift.benchmark.suites.policies import made_for_suite
 from colift.leaderboard.core.board import Board
 from colift.leaderboard.evaluation.entrant import builtin_entrant
 from colift.leaderboard.evaluation.evaluate import play_human_human, play_season_references
@@ -150,7 +151,7 @@ def test_what_the_project_ships_is_of_its_suites_and_policies(suite):
     found = PlayedSeason.read(suite, DATA)
     season = practice_season(suite)
     assert found.suite_digest == season.suite.digest
-    made = made_for(season.suite.scenarios[0].task.name)
+    made = made_for_suite(season.suite)
     assert {each.entry.name for each in found.played} == set(made)
     assert all(each.entry.row.verified for each in found.played)
     assert found.references.keys() == suite_references(season.hidden).keys()

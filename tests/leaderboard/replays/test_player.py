@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.leaderboard.replays.chosen import chosen_replays
 from colift.leaderboard.replays.html import replay_page, script_json

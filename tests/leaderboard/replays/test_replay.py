@@ -8,7 +8,7 @@ import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.trace import Trace
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.results.baselines import human_human_run
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.suite import make_suite

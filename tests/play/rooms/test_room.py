@@ -15,6 +15,7 @@ from colift.benchmark.real_lifts.session_folder import lift_folders
 from colift.benchmark.real_lifts.suites import played_lifts
 from colift.benchmark.suites.suite import recorded_suite
 from colift.benchmark.verification.verify import verify
+from colift.play.rooms import partnership
 from colift.play.rooms.messages import HandSamples, dump_samples, parse_frame
 from colift.play.rooms.room import Room, RoomConfig
 from colift.play.rooms.seats import ALL
@@ -317,3 +318,46 @@ def test_a_forged_sample_is_found_though_all_hashes_fit(table, tmp_path, forge):
     (folder / "inputs.npz").write_bytes(dump_arrays(arrays))
     mended(folder)
     assert verify(folder).findings != ()
+
+
+COUNTS = '''
+class Policy:
+    """Lowers its hand by as many tenths of a millimetre as it has begun lifts."""
+
+    def begin_session(self):
+        self.lifts = 0
+
+    def reset(self, seed):
+        self.lifts += 1
+
+    def act(self, observation):
+        return [-1e-4 * self.lifts if observation[2] < 0.0005 else 0.0]
+'''
+
+
+@pytest.fixture
+def counting(tmp_path):
+    """A room whose policy counts the lifts with its person."""
+    (tmp_path / "counts.py").write_text(COUNTS)
+    path = f"{tmp_path / 'counts.py'}:Policy"
+    made = Table(tmp_path / "session", {"counts": PolicySpec(text=path)} | POLICIES, cue_seed=3)
+    made.take(made.room.join(0))
+    yield made
+    made.room.close()
+
+
+def test_a_policy_goes_on_with_its_person_until_another_is_chosen(counting, tmp_path):
+    def begun():
+        end = lifted(counting)
+        (episode,) = read_bundle(tmp_path / "session" / end["folder"]).episodes
+        return round(-1e4 * float(episode.trace.action[0, 0])), len(end["session"]["rmse_mm"])
+
+    assert [begun(), begun()] == [(1, 1), (2, 2)]
+    counting.say(0, type="choose", partner="counts")
+    assert begun() == (1, 1)
+    assert counting.last("end")["session"]["lifts"] == partnership.LIFTS
+
+
+def test_a_session_ends_after_its_lifts(counting, monkeypatch):
+    monkeypatch.setattr(partnership, "LIFTS", 2)
+    assert [len(lifted(counting)["session"]["rmse_mm"]) for _ in range(3)] == [1, 2, 1]

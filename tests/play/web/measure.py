@@ -29,7 +29,7 @@ from colift.agents.humans.second_person import SecondPersonParameters
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.benchmark.bundle import read_bundle
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.real_lifts.session_folder import SessionFolder
 from colift.benchmark.results.baselines import SECOND_PERSON_SPEC
 from colift.benchmark.tasks.level.task import LEVEL

@@ -167,3 +167,32 @@ def test_only_lifts_that_reached_their_goals_can_be_the_best(page, url, goal):
     }})()""")
     kept = "Best of this session: 7.1 mm with copy, 12.3 mm from the goals."
     assert best == (["", kept] if goal != "null" else ["", ""])
+
+
+def test_lifts_with_one_partner_are_listed_and_shown_when_all_are_done(page, url):
+    enter(page, url)
+
+    def told(*errors):
+        return page.evaluate(
+            """(rmse_mm) => {
+                const { result } = coliftPlay.page;
+                result.root.hidden = false;
+                result.partner = "acquainted";
+                result.together({ lifts: 3, rmse_mm });
+                const part = result.part("together");
+                return [part.hidden, part.open, part.innerText.split(/\\s*\\n\\s*/)];
+            }""",
+            errors,
+        )
+
+    assert told(12.0)[0]
+    hidden, opened, lines = told(12.0, 9.0)
+    assert (hidden, opened) == (False, False)
+    assert lines == ["Lift by lift: 2 of 3 with acquainted"]
+    hidden, opened, lines = told(12.0, 9.0, 6.06)
+    assert (hidden, opened) == (False, True)
+    assert lines == [
+        "Lift by lift: 3 of 3 with acquainted",
+        *("lift 1", "12.0 mm", "lift 2", "9.0 mm", "lift 3", "6.1 mm"),
+    ]
+    assert page.locator('[data-part="together-lifts"] .own').inner_text().startswith("lift 3")

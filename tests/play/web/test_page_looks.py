@@ -28,6 +28,7 @@ ENDED = """
     const { page } = coliftPlay;
     page.result.show(
       { lift: 1, rmse_mm: 104.25, goal_error_mm: 12.34, ghost_rmse_mm: 5.1, failure: null,
+        session: { lifts: 3, rmse_mm: [20.5, 9.25, 104.25] },
         compared: true, late: { frames: 2, worst_ms: 61, marked: true } },
       "copy", { median: 31, p95: 38.2 });
     page.result.compare({ lift: 1, human_human_mm: 101.5,

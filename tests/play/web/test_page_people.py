@@ -115,7 +115,8 @@ def test_a_spectator_is_told_nothing_to_do(open_page, url):
     expect(status).to_have_text("This lift does not count: the hand let go.", timeout=WAIT_MS)
     watcher.evaluate("""
         coliftPlay.page.finished(
-            { lift: 1, rmse_mm: 4.25, ghost_rmse_mm: 5.1, failure: null }, new coliftPlay.Delays())
+            { lift: 1, rmse_mm: 4.25, ghost_rmse_mm: 5.1, failure: null,
+              session: { lifts: 10, rmse_mm: [4.25] } }, new coliftPlay.Delays())
     """)
     assert watcher.get_by_role("button", name="Watch it").is_visible()
     assert not watcher.locator("#next").locator("visible=true").count()

@@ -43,7 +43,7 @@ def lifted(behaviour, subject="S1", policy="agree_game", seed=SEED, uncertainty=
     scenario = make_scenario(behaviour, subject, partner, task="agree")
     if uncertainty is not None:
         scenario = dataclasses.replace(scenario, task=Agree(uncertainty=uncertainty))
-    agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
+    agent = partner_spec(scenario) if policy is None else PolicySpec(text=policy)
     with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
@@ -166,7 +166,7 @@ def test_a_lift_is_proved_by_its_actions():
 
 FRESH = """
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("ahead", "S2", task="agree")
 (episode,) = play(PolicySpec(text="agree_game"), scenario, (100000,))

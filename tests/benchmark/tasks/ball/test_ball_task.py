@@ -33,7 +33,7 @@ def lifted(behaviour, subject="S1", policy="ball_game", seed=SEED):
     """Return a lift with a policy, or with a second person."""
     partner = "human" if policy is None else "nao"
     scenario = make_scenario(behaviour, subject, partner, task="ball")
-    agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
+    agent = partner_spec(scenario) if policy is None else PolicySpec(text=policy)
     with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
@@ -150,7 +150,7 @@ def test_two_people_steer_and_the_lift_is_proved_by_its_actions():
 
 FRESH = """
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("ball_pause", "S2", task="ball")
 (episode,) = play(PolicySpec(text="ball_game"), scenario, (100000,))

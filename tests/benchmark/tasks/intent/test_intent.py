@@ -27,7 +27,7 @@ def lifted(behaviour, subject="S1", policy="pose_bayes", seed=SEED):
     """Return a lift with a policy, or with a second person."""
     partner = "human" if policy is None else "nao"
     scenario = make_scenario(behaviour, subject, partner, task="intent")
-    agent = partner_spec(scenario.task) if policy is None else PolicySpec(text=policy)
+    agent = partner_spec(scenario) if policy is None else PolicySpec(text=policy)
     with contextlib.closing(Lift(scenario)) as lift, agent.agent() as holder:
         return run_episode(lift, holder, seed)
 
@@ -96,7 +96,7 @@ def test_two_people_find_the_pose_and_the_lift_is_proved_by_its_actions():
 FRESH = """
 from colift.benchmark.tasks.intent.manner import MANNERS
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.suites.catalogue import make_scenario
 scenario = make_scenario("switching", "S2", task="intent")
 (episode,) = play(PolicySpec(text="pose_bayes"), scenario, (100000,))

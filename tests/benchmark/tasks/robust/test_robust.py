@@ -17,7 +17,7 @@ from colift.benchmark.episode.conditions import OLDEST, Conditions, read_conditi
 from colift.benchmark.episode.kept_world import drop_kept_world
 from colift.benchmark.episode.lift import Lift
 from colift.benchmark.episode.loop import run_episode
-from colift.benchmark.execution.batches import play
+from colift.benchmark.execution.playing import play
 from colift.benchmark.links.link import Link
 from colift.benchmark.suites.catalogue import make_scenario
 from colift.benchmark.suites.hidden import hidden_suite

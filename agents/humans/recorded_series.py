@@ -1,0 +1,68 @@
+"""A person's recorded lifts in a row."""
+
+import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final, Self
+
+from colift.agents.humans.recorded import Recorded
+from colift.agents.humans.recordings import Recording
+from colift.agents.humans.subject import Subject
+
+NAMELESS: Final = "person"
+"""The person of lifts without a name."""
+
+COUNTED: Final = 3
+"""Most lifts at the end of a series that count."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RecordedSeries(Recorded):
+    """Moves as a person was recorded to move in each lift of a series (:class:`.Recorded`).
+
+    What the partner does changes the table, and not what was recorded.
+    """
+
+    lifts: tuple[Recording, ...]
+    """The recordings of one person, in their order; ``recording`` is the one at the place."""
+    place: int = 0
+    """Place of the lift in the session, counted from 0."""
+
+    @classmethod
+    def of(cls, lifts: tuple[Recording, ...]) -> Self:
+        """Return the series that begins with the first lift."""
+        return cls(recording=lifts[0], lifts=lifts)
+
+    @property
+    def counted(self) -> int:
+        """Lifts at the end of the session that count: the last three, and never the first."""
+        return min(COUNTED, max(len(self.lifts) - 1, 1))
+
+    @property
+    def trust(self) -> None:
+        """Nobody knows what a recorded person thinks of another partner."""
+
+    def change(self, subject: Subject) -> None:
+        """Nobody knows what a recorded person changes."""
+
+    def at(self, place: int) -> Self:
+        """Return the behaviour in the lift at a place."""
+        return dataclasses.replace(self, recording=self.lifts[place], place=place)
+
+    def after(self, near: Sequence[float], far: Sequence[float]) -> Self:
+        """Return the behaviour in the next lift; the last one is followed by itself."""
+        return self.at(min(self.place + 1, len(self.lifts) - 1))
+
+
+def series_of(recordings: Sequence[Recording]) -> dict[str, RecordedSeries]:
+    """Return the series of each person with several lifts, by the person's name.
+
+    All have as many lifts as the person with the fewest. Lifts without a name are one person's,
+    ``person``.
+    """
+    people: dict[str, list[Recording]] = {}
+    for recording in recordings:
+        people.setdefault(recording.person or NAMELESS, []).append(recording)
+    several = {name: lifts for name, lifts in people.items() if len(lifts) > 1}
+    fewest = min(map(len, several.values()), default=0)
+    return {name: RecordedSeries.of(tuple(lifts[:fewest])) for name, lifts in several.items()}

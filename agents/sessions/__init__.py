@@ -1,0 +1,1 @@
+"""Policies that get to know a person in the lifts of a session."""

@@ -1,0 +1,1 @@
+"""Sessions: people with habits, who learn about their partner from lift to lift."""

@@ -1,0 +1,28 @@
+"""The networks that show whether it pays to remember a person, and their budget; without JAX."""
+
+from typing import Final, Literal
+
+from colift.base.errors import InputError
+from colift.benchmark.training.apg_settings import ApgSettings
+
+Kind = Literal["remember", "forget", "told"]
+"""A network that keeps its units from lift to lift; one that does not; one that does not, and is
+told the person's habits."""
+
+UPDATES: Final = 1500
+"""Updates of each training, unless another number is given."""
+
+
+def session_budget(updates: int = UPDATES) -> ApgSettings:
+    """Return the settings of each training, with so many updates.
+
+    Raises
+    ------
+    InputError
+        If there is no update.
+    """
+    if updates < 1:
+        raise InputError(f"--updates must be at least 1, got {updates}")
+    return ApgSettings(
+        session="remember", updates=updates, lifts=8000, batch=64, units=64, rate=0.002
+    )
