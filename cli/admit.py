@@ -161,6 +161,7 @@ def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | No
 
 def _remember(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
     """Train networks in the twin, and test a suite of sessions by them."""
+    remembering.check_people(suite)
     if out is not None and out.exists():
         raise InputError(f"--out must be a new folder, {out} exists")
     require_jax()

@@ -8,6 +8,7 @@ from typing import Final, Self
 from colift.agents.humans.recorded import Recorded
 from colift.agents.humans.recordings import Recording
 from colift.agents.humans.subject import Subject
+from colift.base.errors import InputError
 
 NAMELESS: Final = "person"
 """The person of lifts without a name."""
@@ -46,7 +47,15 @@ class RecordedSeries(Recorded):
         """Nobody knows what a recorded person changes."""
 
     def at(self, place: int) -> Self:
-        """Return the behaviour in the lift at a place."""
+        """Return the behaviour in the lift at a place.
+
+        Raises
+        ------
+        InputError
+            If no lift was recorded there.
+        """
+        if not 0 <= place < len(self.lifts):
+            raise InputError(f"a session of {len(self.lifts)} recorded lifts has none at {place}")
         return dataclasses.replace(self, recording=self.lifts[place], place=place)
 
     def after(self, near: Sequence[float], far: Sequence[float]) -> Self:

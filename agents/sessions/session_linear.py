@@ -7,42 +7,25 @@ from colift.agents.agent import Action, Observation, RobotObservation
 from colift.agents.control.anticipation import FeatureHistory
 from colift.agents.control.linear_forecast import TAPS, load_linear
 from colift.agents.control.predictor import DEFAULT_PERIOD
+from colift.agents.sessions.refitting import LeastSquares, RefittingParameters
 from colift.agents.sessions.sensor_age import SensorAge
-from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, kw_only=True)
-class SessionLinearParameters:
+class SessionLinearParameters(RefittingParameters):
     """Parameters of :class:`SessionLinear`."""
 
-    remember: bool = True
-    """Whether it learns from lift to lift; without, each lift is the first."""
     doubt: float = 30.0
     """Variance of the weights before the first lift, over that of the rises [1/m2]."""
-
-    def __post_init__(self) -> None:
-        """Check the range.
-
-        Raises
-        ------
-        InputError
-            If the doubt is negative or not finite.
-        """
-        if not 0 <= self.doubt < np.inf:
-            raise InputError(f"doubt must be a number of at least 0, got {self.doubt}")
 
 
 class SessionLinear:
     """Linear prediction as :class:`.Linear`, whose weights learn from each lift (ours).
 
     The weights begin as the shipped ones for the horizon H, the age of the samples
-    (:class:`.SensorAge`) and a period. With the changes x before a sample and the rise y that
-    followed, each sample of a lift that has ended improves them by recursive least squares,
-
-        k = P x / (1 + x' P x),  w <- w + k (y - x' w),  P <- P - k x' P,
-
-    with P = doubt I at first.
+    (:class:`.SensorAge`) and a period. The changes before each sample of a lift that has ended, and
+    the rise that followed, improve them (:class:`.LeastSquares`).
     """
 
     def __init__(self, *, parameters: SessionLinearParameters | None = None) -> None:
@@ -80,19 +63,15 @@ class SessionLinear:
 
     def _fit(self) -> None:
         """Fit the weights to all lifts, for the present horizon."""
-        weights, cov = self._first_weights(), self._parameters.doubt * np.eye(TAPS - 1)
+        fitted = LeastSquares(self._first_weights(), self._parameters.doubt)
         ahead = self._horizon / self._period
         for lift in self._lifts:
             heights = np.array([features[0] for features in lift])
             for step in range(len(lift) - int(np.ceil(ahead))):
                 changes = lift[step][1:]
                 rise = float(np.interp(step + ahead, np.arange(len(lift)), heights))
-                spread = (cov * changes).sum(axis=1)
-                gain = spread / (1.0 + float((changes * spread).sum()))
-                error = rise - heights[step] - float((changes * weights).sum())
-                weights = weights + gain * error
-                cov = cov - gain[:, None] * spread
-        self._weights = weights
+                fitted.add(changes, rise - heights[step])
+        self._weights = fitted.weights
 
     def act(self, observation: Observation) -> Action:
         """Return the change [m] that brings the command to the predicted height."""

@@ -16,6 +16,7 @@ from colift.agents.agent import Agent
 from colift.agents.control.recurrent import GatedNetwork
 from colift.agents.sessions.session_controller import SessionController
 from colift.agents.spec import InProcess
+from colift.base.errors import InputError
 from colift.benchmark.admission.assessment import Admission
 from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.played import Played
@@ -109,6 +110,16 @@ class SessionTask:
         for _ in play_session(Given(made=elsewhere), self.before):
             pass
         return Implanted(self.network, elsewhere.units, len(self.before))
+
+
+def check_people(suite: Suite) -> None:
+    """Raise an InputError if the people of a suite have no habits that could be told."""
+    others = {each.behaviour for each in suite.scenarios if not isinstance(each.human, Habitual)}
+    if others:
+        raise InputError(
+            f"{suite.name}: only sessions of people with habits (habitual) can be tested, got "
+            f"{', '.join(sorted(others))}"
+        )
 
 
 def lifts_to_play(suite: Suite) -> int:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Final, Self
 
 import msgspec
 import numpy as np
@@ -16,6 +16,9 @@ from colift.benchmark.results.summary import plain_estimate
 from colift.benchmark.statistics import Estimate, Units, mean_of
 from colift.benchmark.suites.suite import Suite
 from numpy.typing import NDArray
+
+LEAST: Final = 1e-3
+"""Error below which a lift counts as perfect [mm]: no sensor sees it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,7 +74,7 @@ class SessionCurve:
     @property
     def rate(self) -> float:
         """Change of the logarithm of the mean RMSE from lift to lift, by least squares."""
-        errors = [math.log(each.mean) for each in self.rmse_mm]
+        errors = [math.log(max(each.mean, LEAST)) for each in self.rmse_mm]
         return float(np.polyfit(range(len(errors)), errors, 1)[0])
 
 

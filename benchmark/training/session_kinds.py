@@ -2,7 +2,6 @@
 
 from typing import Final, Literal
 
-from colift.base.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
 Kind = Literal["remember", "forget", "told"]
@@ -21,8 +20,6 @@ def session_budget(updates: int = UPDATES) -> ApgSettings:
     InputError
         If there is no update.
     """
-    if updates < 1:
-        raise InputError(f"--updates must be at least 1, got {updates}")
     return ApgSettings(
         session="remember", updates=updates, lifts=8000, batch=64, units=64, rate=0.002
     )

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Final, NamedTuple
 
-from colift.base.errors import InputError
 from colift.benchmark.training.apg_settings import ApgSettings
 
 
@@ -42,6 +41,4 @@ def budget(updates: int = UPDATES) -> ApgSettings:
     InputError
         If there is no update.
     """
-    if updates < 1:
-        raise InputError(f"--updates must be at least 1, got {updates}")
     return ApgSettings(updates=updates, lifts=6000, batch=128, units=32)

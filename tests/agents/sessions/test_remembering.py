@@ -5,7 +5,8 @@ import dataclasses
 import numpy as np
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
-from colift.agents.sessions.refined import Refined, RefinedParameters
+from colift.agents.sessions.refined import Refined
+from colift.agents.sessions.refitting import RefittingParameters
 from colift.base.errors import InputError
 from colift.base.registry import POLICIES, REMEMBERING, entries
 from colift.benchmark.execution.runner import run_suite
@@ -44,7 +45,7 @@ def test_the_first_lift_is_the_same_without_memory(name):
 
 
 def test_without_doubt_nothing_is_learned():
-    certain = Refined(parameters=RefinedParameters(doubt=0.0))
+    certain = Refined(parameters=RefittingParameters(doubt=0.0))
     few = dataclasses.replace(SUITE, scenarios=SUITE.scenarios[:1], seeds=(0, 1))
     one = run_suite(PolicySpec(text="refined,doubt=0"), few)
     other = run_suite(PolicySpec(text="acquainted,remember=false"), few)
@@ -52,4 +53,4 @@ def test_without_doubt_nothing_is_learned():
         assert mine.trace.digest() == theirs.trace.digest()
     assert not certain.internals()
     with pytest.raises(InputError, match="doubt must be a number of at least 0, got -1"):
-        RefinedParameters(doubt=-1.0)
+        RefittingParameters(doubt=-1.0)

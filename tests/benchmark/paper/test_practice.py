@@ -21,7 +21,7 @@ def test_practice_teaches_the_robots_lag_and_trust(made):
 def test_both_lift_alike_and_neither_goes_on_learning(made):
     for runs in made.evidence.practice.values():
         pairs = zip(runs.stranger.episodes, runs.practised.episodes, strict=True)
-        assert all((one.trace.target[:50] == two.trace.target[:50]).all() for one, two in pairs)
+        assert all(one.trace.target.max() == two.trace.target.max() > 0.05 for one, two in pairs)
         assert runs.stranger.suite.session == 0
 
 

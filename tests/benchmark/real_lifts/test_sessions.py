@@ -51,6 +51,8 @@ def test_each_person_is_a_session_in_the_order_of_the_file(path):
     played = [suite.at(place).scenario.human.recording.name for place in range(suite.size)]
     assert played == ["a1", "a2", "a3", "b1", "b2", "b3"]
     assert [suite.counts(place) for place in range(3)] == [False, True, True]
+    with pytest.raises(InputError, match="a session of 3 recorded lifts has none at 3"):
+        suite.with_seeds(0, 4).at(3)
     assert lifts.left_out == dict.fromkeys(("a4", "c1"), "a session has 3 lifts of each person")
     assert [each["trial"] for each in plain_treatments(suite)] == played
 

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
+from colift.benchmark.admission.remembering import check_people
 from colift.benchmark.bundle import results, write_bundle
 from colift.benchmark.execution.batches import Batch, batches, shuffled_batches
 from colift.benchmark.execution.pool import process_pool
 from colift.benchmark.execution.runner import run_suite
+from colift.benchmark.paper.practice import Practising
 from colift.benchmark.results.baselines import HUMAN_HUMAN, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.hidden import hidden_suite
@@ -158,3 +160,10 @@ def test_sessions_and_independent_lifts_are_not_mixed():
     other = make_suite("quick-v1").scenarios[:1]
     with pytest.raises(InputError, match="has sessions and independent lifts"):
         Suite(name="mixed", scenarios=(*SUITE.scenarios, *other), seeds=(0, 1))
+
+
+def test_only_people_with_habits_can_be_tested_for_memory():
+    check_people(SUITE)
+    practising = dataclasses.replace(SUITE.scenarios[0], behaviour="practising", human=Practising())
+    with pytest.raises(InputError, match=r"few: only sessions .* can be tested, got practising"):
+        check_people(dataclasses.replace(SUITE, scenarios=(practising,)))
