@@ -95,6 +95,7 @@ def evaluated(page, url, queue, path, token):
     upload(page, url, path, token)
     page.wait_for_url("**/jobs/*")
     address = page.url
+    page.goto("about:blank")  # The page of a job loads itself anew when it ends.
     Worker(WorkerQueue(queue.board)).once()
     page.goto(address)
     return queue.job(address.rpartition("/")[2])
