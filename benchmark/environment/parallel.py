@@ -35,7 +35,8 @@ if TYPE_CHECKING:
     from colift.benchmark.rendering.scene import Scene
 
 
-class ParallelLift(ParallelEnv[str, Observation, Action]):
+# PettingZoo has no type information.
+class ParallelLift(ParallelEnv[str, Observation, Action]):  # type: ignore[misc]
     r"""A human and a robot lift a table together; both are agents.
 
     Robot's observation, float64, indices of :class:`~colift.agents.agent.RobotObservation`:

@@ -70,39 +70,31 @@ class ScoreTable:
     @classmethod
     def of_lifts(cls, suite: Suite, lifts: Iterable[tuple[int, Episode]]) -> Self:
         """Return the scores of episodes that come with their places, in any order; none is kept."""
-        metrics, people = suite.metrics, _people(suite)
-        known: dict[Stratum, Stratum] = {}
-        places, arrived = array("q"), {name: array("d") for name in metrics}
-        strata: list[Stratum] = []
-        persons: list[str] = []
-        failures: list[str | None] = []
-        every: dict[int, float] = {}
+        metrics = suite.metrics
+        columns = {name: np.full(suite.size, np.nan) for name in metrics}
+        reasons: dict[int, str] = {}
+        arrived = np.zeros(suite.size, dtype=np.bool_)
         for place, each in lifts:
-            every[place] = each.scores[LEADING]
-            if not suite.counts(place):
-                continue
-            where = known.setdefault(stratum(each), stratum(each))
-            places.append(place)
-            strata.append(where)
-            persons.append(people.get((*where, each.trial), each.subject))
-            failures.append(each.failure)
-            for name, column in arrived.items():
-                column.append(each.scores[name])
-        order = sorted(range(len(places)), key=places.__getitem__)
-        strata, persons = [strata[i] for i in order], [persons[i] for i in order]
-        values = {
-            name: array("d", map(column.__getitem__, order)) for name, column in arrived.items()
-        }
-        named = all(who == subject for (_, subject), who in zip(strata, persons, strict=True))
+            arrived[place] = True
+            for name, column in columns.items():
+                column[place] = each.scores[name]
+            if each.failure is not None:
+                reasons[place] = each.failure
+        places = [int(place) for place in np.flatnonzero(arrived) if suite.counts(int(place))]
+        scenarios = [suite.scenarios[place // len(suite.seeds)] for place in places]
+        known: dict[Stratum, Stratum] = {}
+        strata = ((each.behaviour, each.subject.name) for each in scenarios)
+        named = all(each.person == each.subject.name for each in scenarios)
+        values = {name: array("d", column[places].tobytes()) for name, column in columns.items()}
         return cls(
-            strata=tuple(strata),
-            people=() if named else tuple(persons),
+            strata=tuple(known.setdefault(each, each) for each in strata),
+            people=() if named else tuple(each.person for each in scenarios),
             values=values,
             means={
                 each.name: mean_with_missing(values[each.name]).mean for each in on_boards(metrics)
             },
-            failures=tuple(failures[i] for i in order),
-            session_mm=tuple(map(every.__getitem__, sorted(every))) if suite.session else (),
+            failures=tuple(map(reasons.get, places)),
+            session_mm=tuple(columns[LEADING].tolist()) if suite.session else (),
             gentle=tuple(each.name for each in gentle(metrics)),
         )
 
@@ -252,13 +244,6 @@ class ScoreTable:
             session_mm=kept.session_mm,
             gentle=tuple(kept.gentle),
         )
-
-
-def _people(suite: Suite) -> dict[tuple[str, str, str], str]:
-    """Return the person of each behaviour, subject and trial."""
-    return {
-        (each.behaviour, each.subject.name, each.trial): each.person for each in suite.scenarios
-    }
 
 
 class _Stored(msgspec.Struct):

@@ -116,8 +116,8 @@ def told_pool(drawn: Sequence[DrawnLift], telling: Telling) -> ConditionedPool:
     told = np.zeros((len(lifts.gain), telling.size, len(drawn)), np.float32)
     for index, each in enumerate(drawn):
         assert each.conditions is not None
-        # Its last row is for the time after the last step.
-        numbers = telling.numbers(each.scenario, each.conditions)[:-1]
+        # As many as the lift has steps, which may be cut off.
+        numbers = telling.numbers(each.scenario, each.conditions)[: len(each.ages)]
         told[: len(numbers), :, index] = numbers
     return ConditionedPool(lifts, jnp.asarray(told))
 

@@ -7,7 +7,7 @@ import pytest
 from colift.base.errors import InputError
 from colift.benchmark.suites.ranges import TRAINING_PEOPLE
 from colift.benchmark.suites.suite import make_suite
-from colift.benchmark.training.conditioned_lesson import ConditionedLesson
+from colift.benchmark.training.conditioned_lesson import LONGEST, ConditionedLesson, told_pool
 from colift.benchmark.training.inferring import train_variants
 from colift.benchmark.training.variants import TOLD_BOTH, UNTOLD, USUAL, budget
 
@@ -43,6 +43,23 @@ def test_one_budget_trains_networks_that_differ_in_what_they_are_told():
     assert (found[UNTOLD].network.inputs[:, 6:] == found[USUAL].network.inputs[:, 6:]).all()
     assert (own != found[UNTOLD].network.inputs[:, 6:]).any()
     assert np.isfinite(own).all()
+
+
+def test_a_long_lift_is_cut_off_with_what_is_told_in_it():
+    lesson = ConditionedLesson(SUITE)
+    drawn = lesson.lifts(dataclasses.replace(SMALL, lifts=30), lesson.conditions)
+    pool = told_pool(drawn, lesson.telling)
+    whole = [
+        np.asarray(lesson.telling.numbers(each.scenario, each.conditions), np.float32)
+        for each in drawn
+    ]
+    most = round(LONGEST / SUITE.scenarios[0].control_period)
+    assert max(map(len, whole)) - 1 > most  # One more is for the time after the last step.
+    assert len(pool.told) == most
+    for index, (lift, numbers) in enumerate(zip(drawn, whole, strict=True)):
+        steps = len(lift.ages)
+        assert steps == min(len(numbers) - 1, most)
+        np.testing.assert_array_equal(pool.told[:steps, :, index], numbers[:steps])
 
 
 def test_suites_without_conditions_have_no_such_lesson():

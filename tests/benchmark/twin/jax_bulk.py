@@ -14,6 +14,7 @@ from colift.benchmark.twin.drawing import draw_lift, draw_lifts, stack
 from colift.benchmark.twin.rollout import rollout
 from colift.benchmark.twin.task_twin import TaskTwin
 from colift.twin import make
+from scipy import stats
 
 TASKS = ("level", "agree", "ball", "intent")
 COUNT = 1200
@@ -40,6 +41,28 @@ def test_the_hand_s_noise_of_the_same_draws_is_that_of_the_host(drawn):
     time = 0.01 * np.arange(frames)
     sine = np.sin(2 * np.pi * person.tremor_frequency * time + phase)
     np.testing.assert_allclose(person.tremor_amplitude * sine, tremor, atol=1e-9)
+
+
+def test_the_tremor_is_the_sine_of_the_host(drawn):
+    _, lifts, _, _ = drawn
+    key = jax.random.key(7)
+    phase = 2 * np.pi * np.asarray(jax.random.uniform(key, (lifts.size,)), float)
+    time = 0.01 * np.arange(lifts.longest * lifts.frames)[:, np.newaxis]
+    sine = np.sin(2 * np.pi * np.asarray(lifts.hand.tremor_frequency, float) * time + phase)
+    ours = np.asarray(bulk.tremor(key, lifts) / lifts.hand.tremor_amplitude)
+    # In single precision, an angle of 1,000 radians is known to 6e-5.
+    np.testing.assert_allclose(ours.reshape(sine.shape), sine, atol=3e-4)
+
+
+def test_normal_numbers_are_normal_and_independent():
+    found = np.asarray(bulk.normals(jax.random.key(1), (201, 500)), float)
+    assert found.shape == (201, 500)
+    assert stats.kstest(found.ravel(), "norm").pvalue > 0.01
+    assert 3.9 < np.abs(found).max() < 4.33
+    # The two halves of a word, and neighbours.
+    for one, other in ((found[:100], found[101:]), (found[1:], found[:-1])):
+        assert abs(np.corrcoef(one.ravel(), other.ravel())[0, 1]) < 0.02
+        assert abs(np.corrcoef(one.ravel() ** 2, other.ravel() ** 2)[0, 1]) < 0.02
 
 
 def test_plans_and_bodies_are_those_of_the_drawn_lifts_in_turn(drawn):
