@@ -141,20 +141,18 @@ def _no_jax(request):
         pytest.fail(f"{request.path.name} imports JAX: its tests belong into jax_*.py, run apart")
 
 
-@pytest.fixture(params=["not slow", pytest.param("slow", marks=pytest.mark.slow)])
-def in_own_process(once, request):
-    """Run the tests of modules ``jax_*.py`` in a process of their own; skip if JAX is missing.
+@pytest.fixture(scope="session")
+def compiling(once):
+    """Return the variables of a process in which JAX computes; skip if it is missing.
 
-    The slow ones of them are a test of their own.
-
-    It computes on one thread, as the commands do. Compiling takes longer than computing there: it
-    is quick rather than good, and is done once.
+    It computes on one thread, as the commands do. Compiling takes longer than computing in a test:
+    it is quick rather than good, and is done once.
     """
     if importlib.util.find_spec("jax") is None:
         pytest.skip("JAX is not installed")
     # Later versions end the process at a flag that is no more.
     emitters = [int(part) for part in version("jax").split(".")[:2]] < [0, 11]
-    compiling = {
+    return {
         "XLA_FLAGS": "--xla_cpu_multi_thread_eigen=false --xla_backend_optimization_level=0 "
         "--xla_llvm_disable_expensive_passes=true --xla_cpu_parallel_codegen_split_count=1"
         + emitters
@@ -163,6 +161,14 @@ def in_own_process(once, request):
         "JAX_PERSISTENT_CACHE_MIN_COMPILE_TIME_SECS": "0",
         "JAX_PERSISTENT_CACHE_MIN_ENTRY_SIZE_BYTES": "-1",
     }
+
+
+@pytest.fixture(params=["not slow", pytest.param("slow", marks=pytest.mark.slow)])
+def in_own_process(compiling, request):
+    """Run the tests of modules ``jax_*.py`` in a process of their own.
+
+    The slow ones of them are a test of their own.
+    """
 
     def run(*modules: Path):
         environment = {
