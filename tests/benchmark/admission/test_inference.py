@@ -97,6 +97,7 @@ def test_files_come_back(tmp_path):
         write_networks(every, tmp_path / "new")
 
 
+@pytest.mark.slow
 def test_the_criteria_pass_only_beyond_their_bars():
     """A network that is no better for what it is told shows nothing to infer."""
     same, worse = network(), network(ahead=8.0)

@@ -26,7 +26,7 @@ def run(compiling):
     return ended
 
 
-@pytest.mark.parametrize("task", ["level", "agree"])
+@pytest.mark.parametrize("task", ["level", pytest.param("agree", marks=pytest.mark.slow)])
 def test_the_twin_and_its_trainers_need_no_engine(run, task):
     code = f"""
 from colift.benchmark.training.lessons import lesson_of

@@ -123,6 +123,7 @@ def test_the_last_lifts_count_and_all_are_shown(run):
     assert ScoreTable.read(table.stored().plain()) == table.stored()
 
 
+@pytest.mark.slow
 def test_a_bundle_is_verified_in_order_and_an_exchanged_lift_is_found(run, tmp_path):
     people = ScoreTable.of(human_human_run(SUITE))
     content = results(run, {HUMAN_HUMAN: people})
@@ -140,6 +141,7 @@ def test_a_bundle_is_verified_in_order_and_an_exchanged_lift_is_found(run, tmp_p
     assert found[0].episode == "habitual/draw-601 seed 5"
 
 
+@pytest.mark.slow
 def test_what_is_kept_beyond_a_session_is_found_by_the_audit(policies):
     sly = PolicySpec(text=f"{policies}:Sly")
     run = run_suite(sly, SUITE)
