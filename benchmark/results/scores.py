@@ -31,11 +31,6 @@ Stratum = tuple[str, str]
 """Behaviour and subject."""
 
 
-def stratum(episode: Episode) -> Stratum:
-    """Return the behaviour and the subject of an episode: its stratum."""
-    return episode.behaviour, episode.subject
-
-
 @dataclass(frozen=True, kw_only=True)
 class ScoreTable:
     """The scores of one agent: metrics x lifts that count, and the stratum of each lift.

@@ -26,14 +26,15 @@ def run(compiling):
     return ended
 
 
-@pytest.mark.parametrize("task", ["level", pytest.param("agree", marks=pytest.mark.slow)])
-def test_the_twin_and_its_trainers_need_no_engine(run, task):
+@pytest.mark.parametrize(
+    "given",
+    [{"task": "level", "unsettled": 0}, pytest.param({"task": "agree"}, marks=pytest.mark.slow)],
+)
+def test_the_twin_and_its_trainers_need_no_engine(run, given):
     code = f"""
-from colift.benchmark.training.lessons import lesson_of
 from colift.benchmark.training.apg import updates
 from colift.benchmark.training.apg_settings import ApgSettings
-unsettled = {{"unsettled": 0}} if "{task}" == "level" else {{}}
-settings = ApgSettings(task="{task}", updates=1, lifts=4, batch=2, units=2, wide=0, **unsettled)
+settings = ApgSettings(updates=1, lifts=4, batch=2, units=2, wide=0, **{given})
 for update in updates(settings, 0):
     assert update.rmse_mm > 0
 """
