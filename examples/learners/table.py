@@ -5,9 +5,9 @@ may be stopped and given again. It needs the extra ``train``::
 
     python examples/learners/table.py learners --steps 2e6 --seeds 5
 
-In the folder are the submissions, ``cells.json`` with score and curve of each cell, ``table.md``,
-and ``curves.png``: the error while learning, over steps and over seconds. A folder that begins with
-the ``cells.json`` of another goes on with it.
+In the folder are the submissions, ``learners.json`` with score and curve of each cell, and
+``learners.png``: the error while learning, over steps and over seconds. A folder that begins with
+the ``learners.json`` of another goes on with it.
 """
 
 import argparse
@@ -25,6 +25,7 @@ from pathlib import Path
 
 import numpy as np
 from colift.benchmark.statistics import interquartile_mean
+from colift.benchmark.tables.printing import show, table
 
 HERE = Path(__file__).parent
 TASKS = {"level": "standard-v1", "agree": "agree-v1", "ball": "ball-v1", "intent": "intent-v1"}
@@ -94,37 +95,35 @@ def of(cells, learner, task):
     return [each for each in cells if (each["learner"], each["task"]) == (learner, task)]
 
 
-def row(cells, learner, tasks):
-    """Return a row of the table: the interquartile mean over seeds, and its interval."""
-    rng, entries = np.random.default_rng(0), [learner]
-    for task in tasks:
-        errors = np.array([each["rmse_mm"] for each in of(cells, learner, task)])
-        if not len(errors):
-            entries.append("")
-            continue
-        drawn = interquartile_mean(rng.choice(errors, (DRAWS, len(errors))), axis=1)
-        low, high = np.quantile(drawn, (0.025, 0.975))
-        between = f" [{low:.1f}, {high:.1f}]" if len(errors) > 1 else ""
-        entries.append(f"{interquartile_mean(errors):.1f}{between}")
-    return f"| {' | '.join(entries)} |"
+def scored(cells, learner, task):
+    """Return an entry of the table: the interquartile mean over seeds, and its interval."""
+    errors = np.array([each["rmse_mm"] for each in of(cells, learner, task)])
+    if not len(errors):
+        return ""
+    drawn = np.random.default_rng(0).choice(errors, (DRAWS, len(errors)))
+    low, high = np.quantile(interquartile_mean(drawn, axis=1), (0.025, 0.975))
+    between = f" [{low:.1f}, {high:.1f}]" if len(errors) > 1 else ""
+    return f"{interquartile_mean(errors):.1f}{between}"
 
 
-def budget(cells, learner, tasks):
-    """Return a row of the budget: million steps, and seconds, the median over seeds."""
-    entries = [learner]
-    for task in tasks:
-        ends = [(each["steps"][-1], each["seconds"][-1]) for each in of(cells, learner, task)]
-        steps, taken = np.median(ends, axis=0) if ends else (0, 0)
-        entries.append(f"{steps / 1e6:.1f} M, {taken:.0f} s" if ends else "")
-    return f"| {' | '.join(entries)} |"
+def spent(cells, learner, task):
+    """Return million steps and seconds of a training, the median over seeds."""
+    ends = [(each["steps"][-1], each["seconds"][-1]) for each in of(cells, learner, task)]
+    steps, taken = np.median(ends, axis=0) if ends else (0.0, 0.0)
+    return f"{steps / 1e6:.1f} M, {taken:.0f} s" if ends else ""
 
 
-def table(cells, learners, tasks):
+def tables(cells, learners, tasks):
     """Return the table of scores, and that of budgets."""
-    head = [f"| | {' | '.join(TASKS[task] for task in tasks)} |", "|---" * (len(tasks) + 1) + "|"]
-    scores = [row(cells, learner, tasks) for learner in (*learners, *ALONE)]
-    budgets = [budget(cells, learner, tasks) for learner in learners]
-    return "\n".join([*head, *scores, "", *head, *budgets, ""])
+
+    def made(title, entry, rows):
+        filled = [(each, *(entry(cells, each, task) for task in tasks)) for each in rows]
+        return table(title, ("learner", *(TASKS[task] for task in tasks)), filled)
+
+    return (
+        made("RMSE mm, interquartile mean over seeds [95 %]", scored, (*learners, *ALONE)),
+        made("Control steps and seconds of a training, median over seeds", spent, learners),
+    )
 
 
 def draw(cells, learners, tasks):
@@ -180,7 +179,7 @@ def main():
     arguments.add_argument("--jobs", type=int, default=1, help="trainings at a time")
     given = arguments.parse_args()
     given.folder.mkdir(parents=True, exist_ok=True)
-    path, writing = given.folder / "cells.json", threading.Lock()
+    path, writing = given.folder / "learners.json", threading.Lock()
     cells = kept(path)
     there = {(each["learner"], each["task"], each["seed"]) for each in cells}
 
@@ -189,7 +188,7 @@ def main():
             if (learner, task, seed) in there:
                 continue
             cell = made(learner, task, seed, given.steps, given.folder)
-            print(f"{learner} {task} {seed}: {cell['rmse_mm']:.2f} mm", flush=True)
+            print(f"{learner} {task} {seed}: {cell['rmse_mm']:.2f} mm", file=sys.stderr)
             with writing:
                 cells.append(cell)
                 keep(path, cells)
@@ -204,10 +203,8 @@ def main():
                 lambda cell: make(*cell), itertools.product((*ALONE, *given.learners), given.tasks)
             )
         )
-    text = table(cells, given.learners, given.tasks)
-    (given.folder / "table.md").write_text(text)
-    print(text)
-    draw(cells, given.learners, given.tasks).savefig(given.folder / "curves.png", dpi=120)
+    show(*tables(cells, given.learners, given.tasks))
+    draw(cells, given.learners, given.tasks).savefig(given.folder / "learners.png", dpi=120)
 
 
 if __name__ == "__main__":
