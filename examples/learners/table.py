@@ -150,7 +150,7 @@ def draw(cells, learners, tasks):
         axes[1, column].set(xlabel="seconds")
     for each in axes[:, 0]:
         each.set_ylabel("error while learning [mm]")
-    axes[0, 0].legend()
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=9)
     return figure
 
 
