@@ -32,8 +32,6 @@ from rich.table import Column, Table
 
 FEWEST_PAIRS, MOST_PAIRS = 3, 20
 
-WORDS = {True: "passed", False: "FAILED", None: "not compared"}
-
 
 def admit_suite(
     suite: Annotated[
@@ -131,7 +129,7 @@ def admit_suite(
 def _finish(found: Admission, *, as_json: bool) -> None:
     """Print a result; end with the exit code 1 if the suite is not admitted."""
     if as_json:
-        print_json({**dataclasses.asdict(found), "claims": found.claims, "passed": found.passed})
+        print_json(found.plain())
     else:
         show(_means(found), _criteria(found), _words(found))
     if not found.passed:
@@ -237,7 +235,7 @@ def _criteria(found: Admission) -> Table:
     rows = (
         (
             *_row(each),
-            *(() if control is None else (_figure(beside), WORDS[beside.passed])),
+            *(() if control is None else (_figure(beside), _verdict(beside))),
         )
         for each, beside in zip(found.criteria, (control or found).criteria, strict=True)
     )
@@ -245,7 +243,11 @@ def _criteria(found: Admission) -> Table:
 
 
 def _row(each: Criterion) -> tuple[str, ...]:
-    return each.letter, each.what, _figure(each), each.bar, WORDS[each.passed]
+    return each.letter, each.what, _figure(each), each.bar, _verdict(each)
+
+
+def _verdict(each: Criterion) -> str:
+    return each.verdict.upper() if each.verdict == "failed" else each.verdict
 
 
 def _figure(each: Criterion) -> str:
@@ -257,10 +259,13 @@ def _figure(each: Criterion) -> str:
 def _words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    if found.fragile:
-        lines.append(f"fragility: {'; '.join(map(str, found.fragile))}")
-    elif found.control is not None:
-        lines.append("fragility: no verdict changes without any one policy or person")
+    for each in found.criteria:
+        if each.hangs_on:
+            opposite = "fails" if each.passed else "passes"
+            names = " or ".join(", ".join(each.hangs_on).rsplit(", ", 1))
+            lines.append(f"{each.letter} is undecided: it {opposite} without {names}")
+    if found.control is not None and not any(each.hangs_on for each in found.criteria):
+        lines.append("no verdict hangs on one policy or person")
     if found.control is not None:
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")

@@ -25,7 +25,9 @@ from .laboratory import emulators
 MOST_MEMORY = 1 << 30
 """Memory that no process of the tests may reach [bytes]."""
 
-LONGEST = (
+FIRST = (
+    "benchmark/paper/test_claims.py",
+    "leaderboard/pages/test_compare_page.py",
     "benchmark/twin/test_twin.py",
     "leaderboard/queue/test_worker_processes.py",
     "agents/sandbox/test_hostile.py",
@@ -42,7 +44,7 @@ LONGEST = (
     "leaderboard/service/test_kills.py",
     "test_packaging.py",
 )
-"""Files that take the longest, and the longest of those that would be the last."""
+"""Files that make what others wait for, that take the longest, and the longest of the last."""
 
 # The tests start hundreds of processes: each would compile all it imports if nobody kept it.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -74,10 +76,10 @@ def pytest_ignore_collect(collection_path, config):
 
 
 def pytest_collection_modifyitems(items):
-    """Hand out the longest files first: at the end no process waits for another's long one."""
+    """Hand out some files first: no process waits for what another makes, or has not ended."""
     here = Path(__file__).parent
-    places = {here / name: place for place, name in enumerate(LONGEST)}
-    items.sort(key=lambda item: places.get(item.path, len(LONGEST)))
+    places = {here / name: place for place, name in enumerate(FIRST)}
+    items.sort(key=lambda item: places.get(item.path, len(FIRST)))
 
 
 @pytest.hookimpl(wrapper=True)

@@ -2,8 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from colift.agents.loading.policy_spec import PolicySpec
@@ -19,7 +20,7 @@ from colift.benchmark.admission.criteria import (
     rank_changes,
 )
 from colift.benchmark.admission.evidence import Evidence
-from colift.benchmark.admission.fragility import Fragile, fragile_verdicts
+from colift.benchmark.admission.fragility import with_fragility
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.players import HOLD, acts_alone, other_settings, players
 from colift.benchmark.admission.published import NOT_COMPARED, compared
@@ -42,18 +43,15 @@ class Admission:
     means: Mapping[str, float]
     """Mean RMSE of each player [mm]."""
     criteria: tuple[Criterion, ...]
-    fragile: tuple[Fragile, ...]
-    """Policies and people without whom a verdict would be another one."""
     control: "Admission | None"
     """The result of the negative control; None if it is the control."""
 
     @property
     def claims(self) -> dict[str, bool]:
-        """Whether each claim holds: no criterion failed, and none hangs on one policy or person."""
-        hanging = {each.letter for each in self.fragile}
+        """Whether each claim holds: no criterion of it failed, and none is undecided."""
         claims = dict.fromkeys((each.claim for each in self.criteria), True)
         for each in self.criteria:
-            claims[each.claim] &= each.passed is not False and each.letter not in hanging
+            claims[each.claim] &= each.verdict in ("passed", "not compared")
         return claims
 
     @property
@@ -61,6 +59,16 @@ class Admission:
         """Whether the suite is admitted: its first claim holds, and not for the control."""
         control = self.control is not None and self.control.passed
         return next(iter(self.claims.values())) and not control
+
+    def plain(self) -> dict[str, Any]:
+        """Return it as a JSON document, with verdicts and claims."""
+        return {
+            **asdict(self),
+            "criteria": [{**asdict(each), "verdict": each.verdict} for each in self.criteria],
+            "control": None if self.control is None else self.control.plain(),
+            "claims": self.claims,
+            "passed": self.passed,
+        }
 
 
 def cast(suite: Suite) -> dict[str, AgentSpec]:
@@ -139,7 +147,6 @@ def admission_of(
         suite=suite.name,
         digest=suite.digest,
         means=played.means,
-        criteria=criteria,
-        fragile=fragile_verdicts(evidence, criteria),
+        criteria=with_fragility(evidence, criteria),
         control=control,
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Final, Literal
 
 import numpy as np
 from colift.benchmark.admission.evidence import Evidence
@@ -31,6 +31,9 @@ INFERENCE: Final = "the robot needs to find out what it is not told"
 """What a suite can claim."""
 
 
+Verdict = Literal["passed", "failed", "undecided", "not compared"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Criterion:
     """One criterion, as measured."""
@@ -50,6 +53,17 @@ class Criterion:
     """Its 95 % interval; None if it was not compared."""
     passed: bool | None = None
     """Whether the whole interval is within the limit; None if it was not compared."""
+    hangs_on: tuple[str, ...] = ()
+    """The policies and people without any of whom the opposite would be so."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict, which no single policy or person decides."""
+        if self.passed is None:
+            return "not compared"
+        if self.hangs_on:
+            return "undecided"
+        return "passed" if self.passed else "failed"
 
 
 def needs_partner(evidence: Evidence) -> Criterion:

@@ -102,6 +102,5 @@ def inference_of(
                 most=KNOWING,
             ),
         ),
-        fragile=(),
         control=None,
     )

@@ -213,7 +213,6 @@ def memory_of(
                 beyond=False,
             ),
         ),
-        fragile=(),
         control=None,
     )
 

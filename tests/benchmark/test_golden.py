@@ -1,11 +1,12 @@
 """Golden traces: every policy on a few lifts of its task, and two people, bit for bit.
 
-The other suites of a task are there with some policies: all suites are frozen in 0.2.0.
+The other suites of a task are there with some policies: all suites are frozen in 0.2.0. Two people
+and one policy of each suite are played always, all others by the slow tests.
 
 A change that is meant to change no number leaves them as they are. One that is meant to writes
-them anew: ``COLIFT_GOLDEN=write pytest tests/benchmark/test_golden.py``. They are the same on each
-Python, with each NumPy and each PyBullet; on another processor they are, or the test is skipped.
-``COLIFT_GOLDEN_FILE`` names another file for them: of this machine, by another Python.
+them anew: ``COLIFT_GOLDEN=write pytest -m "" tests/benchmark/test_golden.py``. They are the same on
+each Python, with each NumPy and each PyBullet; on another processor they are, or the test is
+skipped. ``COLIFT_GOLDEN_FILE`` names another file for them: of this machine, by another Python.
 """
 
 import hashlib
@@ -50,7 +51,9 @@ def players(suite):
     return [HUMAN_HUMAN, *(name for name in own_policies(task) if name not in level)]
 
 
-NAMES = [f"{suite} {name}" for suite in (*SUITES, *OTHERS) for name in players(suite)]
+PLAYERS = {suite: players(suite) for suite in (*SUITES, *OTHERS)}
+NAMES = [f"{suite} {name}" for suite, names in PLAYERS.items() for name in names]
+ALWAYS = {f"{suite} {name}" for suite, names in PLAYERS.items() for name in names[:2]}
 
 
 def lifts(name):
@@ -99,7 +102,10 @@ def golden():
     return json.loads(FILE.read_text())
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=[] if name in ALWAYS else pytest.mark.slow) for name in NAMES],
+)
 def test_no_bit_has_changed(name, golden):
     found, there = played(name), of_the_machine(golden["platform"])
     for entry, here in of_the_machine(fingerprint()).items():

@@ -1,5 +1,6 @@
 """The learners of ``examples/learners``: each writes a submission that plays its task."""
 
+import json
 import os
 import subprocess
 import sys
@@ -54,3 +55,23 @@ def test_a_learner_from_data(tmp_path, method):
     subprocess.run([*export, "--out", "data"], cwd=tmp_path, check=True, capture_output=True)
     made = learned(tmp_path, "offline.py", "data", "--method", method, "--updates", "50")
     assert 0 < error(made, "smooth", "level") < 100
+
+
+def test_the_table_is_made_once_and_goes_on_after_a_stop(tmp_path):
+    left = tmp_path / "made" / "level" / "ppo" / "seed-0" / "policy"
+    left.mkdir(parents=True)
+    command = [sys.executable, str(HERE / "table.py"), "made", "--steps", "1", "--seeds", "1"]
+    command += ["--learners", "ppo", "--tasks", "level", "--jobs", "2"]
+    first, again = (
+        subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
+        for _ in range(2)
+    )
+    assert "ppo level 0: " in first.stderr
+    assert again.stderr == ""
+    assert again.stdout == first.stdout
+    copy, ppo = json.loads((tmp_path / "made" / "learners.json").read_text())
+    words = again.stdout.split()
+    assert words[words.index("ppo") + 1] == f"{ppo['rmse_mm']:.1f}"
+    assert words[words.index("copy") + 1] == f"{copy['rmse_mm']:.1f}"
+    assert len(ppo["steps"]) == len(ppo["seconds"]) == len(ppo["errors_mm"])
+    assert (tmp_path / "made" / "learners.png").read_bytes().startswith(b"\x89PNG")

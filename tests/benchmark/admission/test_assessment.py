@@ -3,7 +3,6 @@
 import pytest
 from colift.benchmark.admission.assessment import Admission
 from colift.benchmark.admission.criteria import ADAPTATION, COORDINATION, Criterion
-from colift.benchmark.admission.fragility import Fragile
 
 CLAIMS = {"a": COORDINATION, "b": ADAPTATION, "d": COORDINATION}
 
@@ -11,13 +10,18 @@ CLAIMS = {"a": COORDINATION, "b": ADAPTATION, "d": COORDINATION}
 def admission(passed, *, hanging=(), control=None):
     """Return a result in which these criteria passed, failed, or were not compared."""
     criteria = tuple(
-        Criterion(letter=letter, claim=CLAIMS[letter], what="", bar="", detail="", passed=each)
+        Criterion(
+            letter=letter,
+            claim=CLAIMS[letter],
+            what="",
+            bar="",
+            detail="",
+            passed=each,
+            hangs_on=("copy",) if letter in hanging else (),
+        )
         for letter, each in passed.items()
     )
-    fragile = tuple(Fragile(letter=each, without="copy", passes=False) for each in hanging)
-    return Admission(
-        suite="some", digest="", means={}, criteria=criteria, fragile=fragile, control=control
-    )
+    return Admission(suite="some", digest="", means={}, criteria=criteria, control=control)
 
 
 @pytest.mark.parametrize(
@@ -28,12 +32,24 @@ def admission(passed, *, hanging=(), control=None):
         ({"a": True, "b": True, "d": False}, "", False, True),
         ({"a": True, "b": True, "d": True}, "a", False, True),
         ({"a": True, "b": True, "d": True}, "b", True, False),
+        ({"a": True, "b": False, "d": True}, "b", True, False),
     ],
 )
-def test_a_claim_is_shown_if_none_of_its_criteria_fails_or_hangs(passed, hanging, partner, person):
+def test_a_claim_is_shown_if_no_criterion_fails_or_is_undecided(passed, hanging, partner, person):
     found = admission(passed, hanging=hanging)
     assert found.claims == {COORDINATION: partner, ADAPTATION: person}
     assert found.passed is partner
+
+
+def test_a_document_has_verdicts_and_claims():
+    found = admission(
+        {"a": True, "b": False, "d": None}, hanging="a", control=admission({"a": True})
+    )
+    told = found.plain()
+    assert [each["verdict"] for each in told["criteria"]] == ["undecided", "failed", "not compared"]
+    assert told["claims"] == {COORDINATION: False, ADAPTATION: False}
+    assert told["control"]["criteria"][0]["verdict"] == "passed"
+    assert told["control"]["passed"] is True
 
 
 def test_a_test_that_its_control_passes_admits_nothing():

@@ -12,7 +12,7 @@ from colift.benchmark.admission.criteria import (
     no_free_ride,
     rank_changes,
 )
-from colift.benchmark.admission.fragility import fragile_verdicts
+from colift.benchmark.admission.fragility import with_fragility
 from colift.benchmark.admission.published import PUBLISHED, Compared
 
 from .made_up import errors, evidence
@@ -117,8 +117,9 @@ def test_what_hangs_on_one_policy_is_named():
     some = evidence(suited(0.5))
     found = [rank_changes(some)]
     assert found[0].passed
-    fragile = fragile_verdicts(some, (*found, *others(some)))
-    assert list(map(str, fragile)) == ["without policy0, c fails"]
+    judged = with_fragility(some, (*found, *others(some)))
+    assert {each.letter: each.hangs_on for each in judged if each.hangs_on} == {"c": ("policy0",)}
+    assert [each.verdict for each in judged if each.hangs_on] == ["undecided"]
 
 
 def others(some):
@@ -126,6 +127,8 @@ def others(some):
     return needs_partner(some), interaction(some), no_free_ride(some)
 
 
-def test_where_all_policies_suit_somebody_no_verdict_hangs_on_one():
+def test_where_all_policies_suit_somebody_nothing_hangs_on_one():
     some = evidence(errors(10, (10, 25, 4), suits=0.8), alone=("policy0", "policy1"))
-    assert fragile_verdicts(some, (rank_changes(some), *others(some))) == ()
+    judged = with_fragility(some, (rank_changes(some), *others(some)))
+    assert not any(each.hangs_on for each in judged)
+    assert judged[0].verdict == "passed"

@@ -26,6 +26,7 @@ def test_it_has_a_picture_of_each_worst_lift_and_its_moment(found, html):
         assert f"Largest error at {each.moment.time_s:.2f} s" in html
 
 
+@pytest.mark.slow
 def test_equal_inspections_give_equal_pages(found, html):
     drawn = []
     assert inspection_page(found, drawn.append) == html

@@ -10,6 +10,7 @@ from colift.benchmark.tasks.touch import FINER
 from colift.benchmark.world.physics import PHYSICS, Physics
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("policy", ["ball_calm", PAIR])
 def test_the_step_of_the_ball_is_finer_than_the_usual_one(policy):
     suite = make_suite("ball-v1")

@@ -12,7 +12,7 @@ from . import motion_files as files
 from .motion_files import Dialect
 
 QUICK = settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 RATES = st.sampled_from((30.0, 50.0, 100.0, 119.88, 240.0))
 LIFTS = st.fixed_dictionaries(

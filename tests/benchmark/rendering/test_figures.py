@@ -63,6 +63,7 @@ print(*(sha256(figure_bytes(made(PAGE), each, "t")).hexdigest() for each in SUFF
 """
 
 
+@pytest.mark.slow
 def test_its_bytes_depend_neither_on_the_day_nor_on_the_process() -> None:
     environments = (
         {"PYTHONHASHSEED": "1"},

@@ -52,7 +52,10 @@ def test_the_same_lift_gives_the_same_files(
         assert one == other
 
 
-@pytest.mark.parametrize("layout", [COLUMN, PAGE], ids=["column", "page"])
+@pytest.mark.parametrize(
+    "layout",
+    [pytest.param(COLUMN, id="column"), pytest.param(PAGE, id="page", marks=pytest.mark.slow)],
+)
 @pytest.mark.parametrize("task", [*TASKS][1:])
 def test_every_task_is_for_print_and_nothing_is_cut_off(
     task: str, layout: Layout, tmp_path: Path

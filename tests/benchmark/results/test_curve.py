@@ -21,9 +21,13 @@ SUITE = dataclasses.replace(WHOLE, name="four", scenarios=(*CHANGED, *STEADY))
 
 
 @pytest.fixture(scope="module")
-def played():
-    people = ScoreTable.of(human_human_run(SUITE))
-    return results(run_suite(PolicySpec(text="recall"), SUITE), {HUMAN_HUMAN: people})
+def run():
+    return run_suite(PolicySpec(text="recall"), SUITE)
+
+
+@pytest.fixture(scope="module")
+def played(run):
+    return results(run, {HUMAN_HUMAN: ScoreTable.of(human_human_run(SUITE))})
 
 
 def errors(content):
@@ -45,8 +49,7 @@ def test_the_place_of_a_change_is_where_the_habits_differ():
     assert 15 <= some <= 33
 
 
-def test_a_curve_has_the_errors_in_order_and_what_a_change_costs():
-    run = run_suite(PolicySpec(text="recall"), SUITE)
+def test_a_curve_has_the_errors_in_order_and_what_a_change_costs(run):
     scores = ScoreTable.of(run)
     curve = session_curve(run, scores, None)
     table = np.reshape(scores.lifts_mm, (4, 10))

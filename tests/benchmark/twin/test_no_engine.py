@@ -26,10 +26,8 @@ def run(compiling):
     return ended
 
 
-@pytest.mark.parametrize(
-    "given",
-    [{"task": "level", "unsettled": 0}, pytest.param({"task": "agree"}, marks=pytest.mark.slow)],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("given", [{"task": "level", "unsettled": 0}, {"task": "agree"}])
 def test_the_twin_and_its_trainers_need_no_engine(run, given):
     code = f"""
 from colift.benchmark.training.apg import updates

@@ -93,6 +93,7 @@ def test_a_policy_that_fails_begins_again_in_the_next_lift(policies):
     assert first_actions(run)[3:5] == [101, 102]
 
 
+@pytest.mark.slow
 def test_the_result_is_the_same_on_workers_in_another_order_and_resumed(run):
     with process_pool(2) as pool:
         assert digests(run_suite(RECALL, SUITE, executor=pool)) == digests(run)
