@@ -98,13 +98,13 @@ def admit_suite(
         if pairs:
             raise InputError("--pairs is for tasks with touch; this suite has none")
         settings = session_budget(updates or session_kinds.UPDATES)
-        _finish(_remember(episodes, settings, out, jobs), as_json=as_json)
+        report(_remember(episodes, settings, out, jobs), as_json=as_json)
         return
     if needs_inference(episodes):
         if pairs:
             raise InputError("--pairs is for tasks with touch; this suite has none")
         found = _infer(episodes, budget(updates or UPDATES), out, jobs)
-        _finish(found, as_json=as_json)
+        report(found, as_json=as_json)
         return
     if updates is not None or out is not None:
         raise InputError(
@@ -123,10 +123,10 @@ def admit_suite(
         found = admission_of(
             episodes, pairs=played, control=beside, executor=pool, progress=progress
         )
-    _finish(found, as_json=as_json)
+    report(found, as_json=as_json)
 
 
-def _finish(found: Admission, *, as_json: bool) -> None:
+def report(found: Admission, *, as_json: bool) -> None:
     """Print a result; end with the exit code 1 if the suite is not admitted."""
     if as_json:
         print_json(found.plain())
@@ -259,11 +259,7 @@ def _figure(each: Criterion) -> str:
 def _words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    for each in found.criteria:
-        if each.hangs_on:
-            opposite = "fails" if each.passed else "passes"
-            names = " or ".join(", ".join(each.hangs_on).rsplit(", ", 1))
-            lines.append(f"{each.letter} is undecided: it {opposite} without {names}")
+    lines += [f"{e.letter} is undecided: {e.doubt}" for e in found.criteria if e.doubt]
     if found.control is not None and not any(each.hangs_on for each in found.criteria):
         lines.append("no verdict hangs on one policy or person")
     if found.control is not None:

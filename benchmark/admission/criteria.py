@@ -54,7 +54,8 @@ class Criterion:
     passed: bool | None = None
     """Whether the whole interval is within the limit; None if it was not compared."""
     hangs_on: tuple[str, ...] = ()
-    """The policies and people without any of whom the opposite would be so."""
+    """The policies and people that decide it: without any one of them, it has the opposite
+    result."""
 
     @property
     def verdict(self) -> Verdict:
@@ -64,6 +65,16 @@ class Criterion:
         if self.hangs_on:
             return "undecided"
         return "passed" if self.passed else "failed"
+
+    @property
+    def doubt(self) -> str:
+        """Why it is undecided, in words; empty if it is not."""
+        if not self.hangs_on:
+            return ""
+        opposite = "fails" if self.passed else "passes"
+        *others, last = self.hangs_on
+        names = f"any one of {', '.join(others)} and {last}" if others else last
+        return f"it {opposite} without {names}"
 
 
 def needs_partner(evidence: Evidence) -> Criterion:

@@ -3,6 +3,10 @@
 import json
 
 import pytest
+import typer
+from colift.benchmark.admission.assessment import Admission
+from colift.benchmark.admission.criteria import COORDINATION, Criterion
+from colift.cli.admit import report
 
 
 @pytest.mark.parametrize(
@@ -43,3 +47,15 @@ def test_the_control_stands_beside_a_suite_and_fails(colift):
     for each in found["criteria"]:
         if each["passed"] is not None:
             assert each["ci95"][0] <= each["figure"] <= each["ci95"][1]
+
+
+def test_what_a_criterion_hangs_on_is_printed(capsys):
+    criterion = Criterion(
+        letter="a", claim=COORDINATION, what="", bar="", detail="", passed=True, hangs_on=("x", "y")
+    )
+    found = Admission(suite="some", digest="", means={}, criteria=(criterion,), control=None)
+    with pytest.raises(typer.Exit):
+        report(found, as_json=False)
+    printed = capsys.readouterr().out
+    assert "a is undecided: it fails without any one of x and y\n" in printed
+    assert f"{COORDINATION}: NOT SHOWN" in printed

@@ -1,6 +1,7 @@
 """Criteria of admission as maths: what they reject by chance, and what they find."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -120,6 +121,15 @@ def test_what_hangs_on_one_policy_is_named():
     judged = with_fragility(some, (*found, *others(some)))
     assert {each.letter: each.hangs_on for each in judged if each.hangs_on} == {"c": ("policy0",)}
     assert [each.verdict for each in judged if each.hangs_on] == ["undecided"]
+    assert [each.doubt for each in judged if each.doubt] == ["it fails without policy0"]
+
+
+def test_what_hangs_on_any_of_several_says_so():
+    some = rank_changes(evidence(suited(0.5)))
+    hanging = replace(some, passed=False, hangs_on=("copy", "level", "draw-3"))
+    assert hanging.verdict == "undecided"
+    assert hanging.doubt == "it passes without any one of copy, level and draw-3"
+    assert some.doubt == ""
 
 
 def others(some):
