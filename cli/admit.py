@@ -78,7 +78,7 @@ def admit_suite(
     """Test by six criteria whether the lifts of a suite need coordination.
 
     A suite with conditions is tested for whether there is something to infer, by two criteria,
-    and one of sessions for whether it pays to remember the person, by four.
+    and one of sessions for whether it pays to remember the person, by five.
 
     Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
     the person. Exit code 1 if the first is not shown, or is shown for the control.
@@ -261,7 +261,7 @@ def _words(found: Admission) -> str:
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
     lines += [f"{e.letter} is undecided: {e.doubt}" for e in found.criteria if e.doubt]
     if found.control is not None and not any(each.hangs_on for each in found.criteria):
-        lines.append("no verdict hangs on one policy or person")
+        lines.append("no verdict hangs on one policy, person or pair")
     if found.control is not None:
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")

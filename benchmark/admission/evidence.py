@@ -18,16 +18,16 @@ class Evidence:
     """Everybody: policies and references, other settings, the idle robot and two people."""
     policies: tuple[str, ...]
     """The registered policies, as they are."""
-    references: tuple[str, ...]
+    references: tuple[str, ...] = ()
     """Trained references, which are in no registry."""
-    settings: tuple[str, ...]
+    settings: tuple[str, ...] = ()
     """Policies with other settings; see :func:`.other_settings`."""
-    alone: frozenset[str]
+    alone: frozenset[str] = frozenset()
     """Those policies and references that are blind to the partner; see :func:`.acts_alone`."""
-    idle: str
-    """The robot that does nothing."""
-    two_people: str
-    """Two people."""
+    idle: str = ""
+    """The robot that does nothing, if it plays."""
+    two_people: str = ""
+    """Two people, if they play."""
     pairs: FloatArray | None = None
     """(n, n) mean RMSE of each person with each robot of n pairs that were trained, three or more
     [mm]; None: no pair was trained."""

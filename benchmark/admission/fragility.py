@@ -1,6 +1,6 @@
 """The criteria of a test, and whether one policy, person or pair decides any of them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -26,13 +26,14 @@ CRITERIA: Final[tuple[Callable[[Evidence], Criterion], ...]] = (
 """The criteria in the order of their letters."""
 
 
-def judged(evidence: Evidence) -> tuple[Criterion, ...]:
-    """Return all criteria, each with the policies, people and pairs that decide it."""
-    criteria = [criterion(evidence) for criterion in CRITERIA]
-    opposite: dict[str, list[str]] = {each.letter: [] for each in criteria}
+def judged(
+    evidence: Evidence, criteria: Sequence[Callable[[Evidence], Criterion]] = CRITERIA
+) -> tuple[Criterion, ...]:
+    """Return criteria, each with the policies, people and pairs that decide it."""
+    found = [criterion(evidence) for criterion in criteria]
+    opposite: dict[str, list[str]] = {each.letter: [] for each in found}
     for name, part in evidence.without_each().items():
-        for criterion, whole in zip(CRITERIA, criteria, strict=True):
-            passed = {whole.passed, criterion(part).passed}
-            if passed == {True, False}:
+        for criterion, whole in zip(criteria, found, strict=True):
+            if {whole.passed, criterion(part).passed} == {True, False}:
                 opposite[whole.letter].append(name)
-    return tuple(replace(each, hangs_on=tuple(opposite[each.letter])) for each in criteria)
+    return tuple(replace(each, hangs_on=tuple(opposite[each.letter])) for each in found)
