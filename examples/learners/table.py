@@ -146,8 +146,12 @@ def draw(cells, learners, tasks):
         for alone in of(cells, *ALONE, task):
             for each in axes[:, column]:
                 each.axhline(alone["rmse_mm"], color="gray", linestyle=":", label=alone["learner"])
-        axes[0, column].set(title=TASKS[task], xlabel="million steps", ylim=(0.0, None))
-        axes[1, column].set(xlabel="seconds")
+        limits = {"xscale": "log", "ylim": (0.0, None)}
+        axes[0, column].set(title=TASKS[task], xlabel="million steps", **limits)
+        axes[1, column].set(xlabel="seconds", **limits)
+        for each in axes[:, column]:
+            each.xaxis.set_major_formatter("{x:g}")
+            each.xaxis.set_minor_formatter("")
     for each in axes[:, 0]:
         each.set_ylabel("error while learning [mm]")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=9)
