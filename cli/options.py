@@ -202,6 +202,8 @@ def chosen_suite(
 
     lifts = real_lifts(recordings, as_recorded=as_recorded, session=session, robot=robot)
     report_notes(recordings)
+    if lifts.assumed:
+        print(f"{recordings.name}: {lifts.assumed}", file=sys.stderr)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
 
