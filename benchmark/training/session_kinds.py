@@ -8,6 +8,9 @@ Kind = Literal["remember", "forget", "told"]
 """A network that keeps its units from lift to lift; one that does not; one that does not, and is
 told the person's habits."""
 
+SESSIONS: Final = "session-v1"
+"""The suite whose sessions policies learn from, with other people."""
+
 UPDATES: Final = 1500
 """Updates of each training, unless another number is given."""
 
