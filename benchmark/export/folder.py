@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from colift.base.errors import InputError
+from colift.base.places import check_beside
 from colift.benchmark.export.provenance import STAMP
 
 
@@ -31,12 +32,7 @@ def check_new(folder: Path, *, replace: bool) -> None:
             raise InputError(f"{folder} is there already; name a new folder, or add --force")
         if not (folder / STAMP).is_file():
             raise InputError(f"{folder} is not an export (it has no {STAMP}) and is not replaced")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder.parent):
-            pass
-    except OSError as error:
-        raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+    check_beside(folder)
 
 
 @contextmanager

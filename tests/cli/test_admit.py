@@ -21,7 +21,10 @@ from colift.cli.admit import report
         (["ball-v1", "--people", "2"], "admission needs 3 people or more, got 2"),
         (["ball-v1", "--tune", "--people", "3"], "--tune takes none of --pairs, --people, --upd"),
         (["ball-v1", "--tune", "--updates", "0"], "--tune takes none of --pairs, --people, --upd"),
-        (["ball-v1", "--tune", "--out", "new"], "--tune takes none of --pairs, --people, --updates"),
+        (
+            ["ball-v1", "--tune", "--out", "new"],
+            "--tune takes none of --pairs, --people, --upd",
+        ),
         (["ball-v1", "--jobs", "0"], "jobs must be at least 1, got 0"),
         (["ball-v1", "--updates", "5"], "--updates and --out are for suites with conditions or se"),
         (["session-v1", "--updates", "0", "--out", "new"], "--updates must be at least 1, got 0"),
