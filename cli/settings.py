@@ -20,9 +20,9 @@ def with_settings(
 ) -> Callable[..., None]:
     """Return a command that has an option for each of some fields, instead of ``settings``.
 
-    Type and default are those of the field; the help is the first sentence of its docstring. A
-    choice is any text for the option: the dataclass refuses what is none, and an empty one, which
-    is no choice, is not among those that the help shows.
+    Type and default are those of the field; the help is the first sentence of its docstring. An
+    option with choices takes any text, which the dataclass checks; the help names all choices but
+    the empty one.
 
     Parameters
     ----------
