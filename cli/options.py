@@ -360,6 +360,21 @@ def try_folder(option: str, folder: Path) -> None:
             each.rmdir()
 
 
+def check_new_folder(option: str, folder: Path | None) -> None:
+    """Refuse a folder that is there or cannot be made, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it is there, or as :func:`check_folder`.
+    """
+    if folder is None:
+        return
+    if folder.exists():
+        raise InputError(f"{option} must be a new folder, {folder} exists")
+    try_folder(option, folder)
+
+
 def check_output(path: Path | None) -> None:
     """Refuse a file that cannot be written, before any work is done.
 

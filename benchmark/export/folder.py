@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from colift.base.errors import InputError
+from colift.base.places import check_beside
 from colift.benchmark.export.croissant import CROISSANT
 from colift.benchmark.export.provenance import STAMP
 
@@ -37,12 +38,7 @@ def check_new(folder: Path, *, replace: bool) -> None:
         others = _others(folder)
         if others:
             raise InputError(f"{folder} holds other files ({others[0]}); name a new folder")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder.parent):
-            pass
-    except OSError as error:
-        raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+    check_beside(folder)
 
 
 def _others(folder: Path) -> list[str]:

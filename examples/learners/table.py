@@ -78,8 +78,10 @@ def made(learner, task, seed, steps, folder):
     policy, result = learner, {"learner": learner, "task": task, "seed": seed}
     if learner not in ALONE:
         order, policy = command(learner, task, seed, steps, place)
-        printed = subprocess.run(order, env=env, check=True, capture_output=True, text=True).stdout
-        learned = curve(printed, policy.parent, seed)
+        trained = subprocess.run(order, env=env, capture_output=True, text=True)
+        if trained.returncode:
+            raise SystemExit(trained.stderr)
+        learned = curve(trained.stdout, policy.parent, seed)
         for name, values in zip(CURVE, learned, strict=True):
             result[name] = [round(float(each), 3) for each in values]
     order = [sys.executable, "-m", "colift", "run", str(policy), "--suite", TASKS[task], "--json"]
