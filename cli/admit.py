@@ -10,10 +10,10 @@ from colift.base.errors import InputError
 from colift.benchmark.admission import inference, remembering
 from colift.benchmark.admission.assessment import Admission, admission_of, lifts_to_play
 from colift.benchmark.admission.control import CONTROL, CONTROL_PEOPLE, control_suite, first_people
-from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.inference import inference_of, needs_inference
 from colift.benchmark.admission.remembering import memory_of
 from colift.benchmark.admission.tuning import Tuned, tune, tunings
+from colift.benchmark.execution.pool import checked_jobs
 from colift.benchmark.execution.progress import job_bar, workers
 from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tables.printing import left, show, table
@@ -26,9 +26,9 @@ from colift.benchmark.twin.libraries import require_jax
 from colift.cli.completion import suites
 from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
-from colift.cli.options import AsJson, Jobs, chosen_suite
+from colift.cli.options import AsJson, Jobs, check_new_folder, chosen_suite
+from colift.cli.tables.admission import admission_words, criteria_table, means_table
 from numpy.typing import NDArray
-from rich.table import Column, Table
 
 FEWEST_PAIRS, MOST_PAIRS = 3, 20
 
@@ -86,25 +86,27 @@ def admit_suite(
     Example: colift admit agree-v1 --people 4
     """
     chosen = chosen_suite(suite, None, None, None)
+    checked_jobs(jobs)
     if tune_policies:
-        if pairs or people is not None:
-            raise InputError("--tune takes neither --pairs nor --people: no lift of a suite counts")
+        if pairs or any(each is not None for each in (people, updates, out)):
+            raise InputError(
+                "--tune takes none of --pairs, --people, --updates and --out: no lift of a suite "
+                "counts, and no network is trained"
+            )
         _tune(chosen, policies, jobs, as_json=as_json)
         return
     if policies:
         raise InputError("--policy is for --tune: a test of admission plays all policies")
     episodes = chosen if people is None else first_people(chosen, people)
-    if episodes.session:
+    if episodes.session or needs_inference(episodes):
         if pairs:
             raise InputError("--pairs is for tasks with touch; this suite has none")
-        settings = session_budget(updates or session_kinds.UPDATES)
-        _finish(_remember(episodes, settings, out, jobs), as_json=as_json)
-        return
-    if needs_inference(episodes):
-        if pairs:
-            raise InputError("--pairs is for tasks with touch; this suite has none")
-        found = _infer(episodes, budget(updates or UPDATES), out, jobs)
-        _finish(found, as_json=as_json)
+        check_new_folder("--out", out)
+        if episodes.session:
+            found = _remember(episodes, session_budget(updates), out, jobs)
+        else:
+            found = _infer(episodes, budget(updates), out, jobs)
+        report(found, as_json=as_json)
         return
     if updates is not None or out is not None:
         raise InputError(
@@ -123,23 +125,21 @@ def admit_suite(
         found = admission_of(
             episodes, pairs=played, control=beside, executor=pool, progress=progress
         )
-    _finish(found, as_json=as_json)
+    report(found, as_json=as_json)
 
 
-def _finish(found: Admission, *, as_json: bool) -> None:
+def report(found: Admission, *, as_json: bool) -> None:
     """Print a result; end with the exit code 1 if the suite is not admitted."""
     if as_json:
         print_json(found.plain())
     else:
-        show(_means(found), _criteria(found), _words(found))
+        show(means_table(found), criteria_table(found), admission_words(found))
     if not found.passed:
         raise typer.Exit(1)
 
 
 def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
     """Train networks in the twin, and test a suite with conditions by them."""
-    if out is not None and out.exists():
-        raise InputError(f"--out must be a new folder, {out} exists")
     require_jax()
     from colift.benchmark.training.conditioned_lesson import ConditionedLesson
     from colift.benchmark.training.inferring import train_variants
@@ -160,8 +160,6 @@ def _infer(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | No
 def _remember(suite: Suite, settings: ApgSettings, out: Path | None, jobs: int | None) -> Admission:
     """Train networks in the twin, and test a suite of sessions by them."""
     remembering.check_people(suite)
-    if out is not None and out.exists():
-        raise InputError(f"--out must be a new folder, {out} exists")
     require_jax()
     from colift.benchmark.training.session_networks import train_kinds
 
@@ -209,66 +207,3 @@ def _tune(suite: Suite, names: list[str] | None, jobs: int | None, *, as_json: b
     )
     title = f"Policies of {suite.name}, tuned on training people; RMSE with others, mm"
     show(table(title, ("policy", "before", "after", left("settings")), rows))
-
-
-def _means(found: Admission) -> Table:
-    """Return the mean errors of everybody, the best first."""
-    means = sorted(found.means.items(), key=lambda each: each[1])
-    rows = ((name, f"{mean:.2f}") for name, mean in means)
-    title = f"Mean RMSE on {found.suite}, mm"
-    # With an error of two digits beside it, the column is as wide as the title, which would fold.
-    return table(title, (Column("who", min_width=len(title) - 8), "all"), rows)
-
-
-def _criteria(found: Admission) -> Table:
-    """Return the criteria, with the control beside them."""
-    control = found.control
-    columns: list[str | Column] = [
-        "",
-        Column("criterion", min_width=24),
-        left("figure [95 %]"),
-        left("must be"),
-        left("result"),
-    ]
-    if control is not None:
-        columns += [left(control.suite), left("its result")]
-    rows = (
-        (
-            *_row(each),
-            *(() if control is None else (_figure(beside), _verdict(beside))),
-        )
-        for each, beside in zip(found.criteria, (control or found).criteria, strict=True)
-    )
-    return table(f"Admission of {found.suite}", tuple(columns), rows)
-
-
-def _row(each: Criterion) -> tuple[str, ...]:
-    return each.letter, each.what, _figure(each), each.bar, _verdict(each)
-
-
-def _verdict(each: Criterion) -> str:
-    return each.verdict.upper() if each.verdict == "failed" else each.verdict
-
-
-def _figure(each: Criterion) -> str:
-    if each.figure is None or each.ci95 is None:
-        return "none"
-    return f"{each.figure:.2f} [{each.ci95[0]:.2f}, {each.ci95[1]:.2f}]"
-
-
-def _words(found: Admission) -> str:
-    """Return what is behind the figures, and what a verdict hangs on."""
-    lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
-    for each in found.criteria:
-        if each.hangs_on:
-            opposite = "fails" if each.passed else "passes"
-            names = " or ".join(", ".join(each.hangs_on).rsplit(", ", 1))
-            lines.append(f"{each.letter} is undecided: it {opposite} without {names}")
-    if found.control is not None and not any(each.hangs_on for each in found.criteria):
-        lines.append("no verdict hangs on one policy or person")
-    if found.control is not None:
-        fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
-        lines.append(f"control: {found.control.suite} {fate}")
-    claims = found.claims.items()
-    lines += [f"{claim}: {'holds' if holds else 'NOT SHOWN'}" for claim, holds in claims]
-    return "\n".join(lines)

@@ -34,19 +34,23 @@ def checked_look(out: Path, camera: str, speed: float, plays: int, beside: Seque
     Raises
     ------
     InputError
-        If a value is out of range, or the file is neither a picture nor a film.
+        If a value is out of range, or has no effect on a file of this kind.
     """
     from colift.benchmark.rendering.film import Look
     from colift.benchmark.rendering.layout import VECTOR
     from colift.benchmark.rendering.writing import SUFFIXES
 
     look = Look(camera=camera, speed=speed, plays=plays)
-    usual = Look(camera=camera) if out.suffix in VECTOR else Look()
-    if out.suffix not in SUFFIXES and (look != usual or beside):
-        options = "--speed," if out.suffix in VECTOR else "--camera, --speed,"
-        raise InputError(
-            f"{options} --plays and --beside are for {', '.join(SUFFIXES)}, not for {out}"
-        )
+    usual = Look()
+    films = tuple(each for each in SUFFIXES if each != ".png")
+    for option, given, suffixes in (
+        ("--camera", look.camera != usual.camera, (*SUFFIXES, *VECTOR)),
+        ("--speed", look.speed != usual.speed, films),
+        ("--plays", look.plays != usual.plays, (".gif", ".webp")),
+        ("--beside", bool(beside), SUFFIXES),
+    ):
+        if given and out.suffix not in suffixes:
+            raise InputError(f"{option} is for {', '.join(suffixes)}, not for {out}")
     return look
 
 

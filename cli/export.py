@@ -8,7 +8,8 @@ from typing import Annotated, Final
 import typer
 from colift.agents.humans.recording_notes import notes_of
 from colift.base.errors import InputError
-from colift.benchmark.bundle import Bundle, one_line, read_bundle
+from colift.benchmark.bundle import Bundle, one_line
+from colift.benchmark.bundle.present import read_claims
 from colift.benchmark.execution.pool import checked_jobs
 from colift.benchmark.execution.progress import workers
 from colift.benchmark.export.contents import Contents
@@ -62,7 +63,11 @@ def export_lifts(
     ] = None,
     lifts: Annotated[
         int | None,
-        typer.Option("--lifts", metavar="N", help="Lifts of a fixed set: 30, 300 (default), 3000."),
+        typer.Option(
+            "--lifts",
+            metavar="N",
+            help="Lifts of a fixed set; default: 300, others to compare: 30, 3000.",
+        ),
     ] = None,
     recordings: Annotated[
         Path | None,
@@ -101,7 +106,7 @@ def export_lifts(
 def _bundle(folder: Path, to: str, out: Path, view: str, force: bool, jobs: int) -> None:
     if is_session(folder):
         raise InputError(f"{folder} is a session: name the bundle of one of its lifts")
-    bundle = read_bundle(folder)
+    bundle = read_claims(folder)
     mention_others(folder)
     if bundle.recipe.channel is not None:
         raise InputError(

@@ -202,6 +202,8 @@ def chosen_suite(
 
     lifts = real_lifts(recordings, as_recorded=as_recorded, session=session, robot=robot)
     report_notes(recordings)
+    if lifts.assumed:
+        print(f"{recordings.name}: {lifts.assumed}", file=sys.stderr)
     report_left_out(recordings.name, lifts.left_out)
     return lifts.suite.with_robot(robot)
 
@@ -298,14 +300,23 @@ def executor(jobs: int | None, dask: str | None) -> AbstractContextManager[Execu
     return opened(dask_pool(dask), "--dask")
 
 
-def check_new_file(path: Path | None) -> None:
+def check_new_file(path: Path | None, suffix: str | None = None) -> None:
     """Refuse a file that exists or cannot be written, before any work is done.
+
+    Parameters
+    ----------
+    path
+        The file, if any.
+    suffix
+        The suffix that it must have, in lower or upper case; None is any.
 
     Raises
     ------
     InputError
-        If it exists, or as :func:`check_output`.
+        If it exists or has another suffix, or as :func:`check_output`.
     """
+    if path is not None and suffix is not None and path.suffix.lower() != suffix:
+        raise InputError(f"cannot write {path}: its suffix must be {suffix}")
     check_output(path)
     if path is not None and path.exists():
         raise InputError(f"{path} exists; name a new file")
@@ -347,6 +358,21 @@ def try_folder(option: str, folder: Path) -> None:
     with suppress(OSError):  # Another command may have written there.
         for each in missing:
             each.rmdir()
+
+
+def check_new_folder(option: str, folder: Path | None) -> None:
+    """Refuse a folder that is there or cannot be made, before any work is done.
+
+    Raises
+    ------
+    InputError
+        If it is there, or as :func:`check_folder`.
+    """
+    if folder is None:
+        return
+    if folder.exists():
+        raise InputError(f"{option} must be a new folder, {folder} exists")
+    try_folder(option, folder)
 
 
 def check_output(path: Path | None) -> None:

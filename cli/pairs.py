@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 from colift.benchmark.execution.progress import workers
-from colift.benchmark.pairs.files import pairs_json, write_pairs
+from colift.benchmark.pairs.files import check_pairs_folder, pairs_json, write_pairs
 from colift.benchmark.pairs.recorded import RecordedPairs, recorded_pairs
 from colift.benchmark.pairs.simulated import SimulatedPairs, movements, simulated_pairs
 from colift.benchmark.pairs.summary import summarise_pairs
@@ -14,6 +14,7 @@ from colift.benchmark.tables.printing import counted, show
 from colift.cli.document import print_json
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import AsJson, Jobs, report_left_out, report_notes, try_folder
+from colift.cli.remedies import naming
 from colift.cli.tables.pairs import pairs_table
 
 
@@ -50,6 +51,8 @@ def pairs(
     """
     if out is not None:
         try_folder("--out", out)
+        with naming("--out"):
+            check_pairs_folder(out)
     found = recorded_pairs(file, length)
     report_notes(file)
     report_left_out(file.name, dict.fromkeys(found.without, "the other end was not recorded"))

@@ -17,7 +17,8 @@ from colift.benchmark.recordings.wishes import Wishes
 from colift.benchmark.recordings.writing import joined_notes, lifts_csv
 from colift.benchmark.tables.printing import counted, show
 from colift.cli.document import print_json
-from colift.cli.options import AsJson, check_output
+from colift.cli.options import AsJson, check_new_file
+from colift.cli.remedies import naming
 from colift.cli.tables.takes import choices_text, takes_json, takes_table
 
 MOST_PROBLEMS: Final = 12
@@ -143,25 +144,28 @@ def make_recordings(
             margin=_not_negative("--margin", margin),
         ),
     )
+    with naming("--out"):
+        check_new_file(out, ".csv")
     drawn = picture or (out.with_suffix(".png") if out is not None else None)
-    for path in (out, drawn):
-        check_output(path)
+    with naming("--picture", hint="" if picture else "without it, the picture is beside the lifts"):
+        check_new_file(drawn, ".png")
     takes = _takes(files, wishes)
     notes = joined_notes(map(notes_of, files), licence, cite)
     data = lifts_csv(takes, notes)
-    if out is not None:
-        out.write_bytes(data)
+    made = [] if out is None else [(out, data)]
     if drawn is not None:
         from colift.benchmark.recordings.picture import lifts_png  # Imports matplotlib.
 
-        drawn.write_bytes(lifts_png(takes))
+        made.append((drawn, lifts_png(takes)))
+    for path, content in made:
+        path.write_bytes(content)
     if as_json:
         print_json({"recordings": takes_json(takes), "out": out and str(out)})
         return
     show(takes_table(takes), *choices_text(takes))
     if notes.text():
         show(notes.text())
-    _say_next(takes, out, drawn)
+    _say_next(takes, out, [path for path, _ in made])
 
 
 def _takes(files: list[Path], wishes: Wishes) -> list[Take]:
@@ -193,12 +197,14 @@ def _refuse(problems: list[str], files: int) -> NoReturn:
     )
 
 
-def _say_next(takes: list[Take], out: Path | None, drawn: Path | None) -> None:
+def _say_next(takes: list[Take], out: Path | None, written: list[Path]) -> None:
     lifts = sum(len(take.lifts) for take in takes)
+    if written:
+        show(f"written: {', '.join(map(str, written))}")
     if out is None:
-        show("Nothing is written: --out lifts.csv writes the lifts.")
+        nothing = "" if written else "Nothing is written: "
+        show(f"{nothing}--out lifts.csv writes the lifts.")
         return
-    show(f"written: {out}, {drawn}")
     if lifts > 1:
         show("Next:", f"  colift validity {out}")
     else:

@@ -3,7 +3,7 @@
 import dataclasses
 import inspect
 from collections.abc import Callable, Mapping
-from typing import Annotated, Any, Final, get_type_hints
+from typing import Annotated, Any, Final, Literal, get_args, get_origin, get_type_hints
 
 import typer
 from colift.agents.loading.description import field_docstrings
@@ -20,7 +20,9 @@ def with_settings(
 ) -> Callable[..., None]:
     """Return a command that has an option for each of some fields, instead of ``settings``.
 
-    Type and default are those of the field; the help is the first sentence of its docstring.
+    Type and default are those of the field; the help is the first sentence of its docstring. An
+    option with choices takes any text, which the dataclass checks; the help names all choices but
+    the empty one.
 
     Parameters
     ----------
@@ -36,12 +38,15 @@ def with_settings(
 
     def parameter(name: str) -> inspect.Parameter:
         meaning = texts[name].partition(". ")[0].rstrip(".")
-        given: dict[str, Any] = {"metavar": METAVARS.get(types[name]), "help": f"{meaning}."}
+        form, metavar = types[name], METAVARS.get(types[name])
+        if get_origin(form) is Literal:
+            form, metavar = str, "|".join(filter(None, get_args(form)))
+        given: dict[str, Any] = {"metavar": metavar, "help": f"{meaning}."}
         return inspect.Parameter(
             name,
             inspect.Parameter.KEYWORD_ONLY,
             default=defaults[name],
-            annotation=Annotated[types[name], typer.Option(**given | dict(words.get(name, {})))],
+            annotation=Annotated[form, typer.Option(**given | dict(words.get(name, {})))],
         )
 
     def run(**given: Any) -> None:

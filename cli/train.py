@@ -1,14 +1,14 @@
 """``colift train``: policies trained from scratch, as submissions."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 from colift.base.errors import InputError
-from colift.base.registry import SUITES, own_entries
+from colift.base.registry import STANDARD_SUITE, SUITES, entries, own_entries
 from colift.benchmark.execution.pool import local_pool
 from colift.benchmark.execution.progress import job_bar
 from colift.benchmark.rendering.layout import PAGE, Layout
@@ -18,6 +18,7 @@ from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training import apg_settings, cem
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.course import Point, open_course, write_summary
+from colift.benchmark.training.session_kinds import SESSIONS
 from colift.benchmark.twin.libraries import require_jax
 from colift.cli.interrupts import reported_interrupt
 from colift.cli.options import Device, Jobs, LayoutName, chosen_layout
@@ -173,16 +174,26 @@ def train_all(
     write_all(out, "curves", figure, f"Trained by {trainer}: error on the validation lifts")
     print(f"written: {write_summary(courses)}, and the curves: {out / 'curves.svg'}, .pdf, .png")
     best = min(courses, key=lambda course: course.curve[-1].rmse_mm).policy
-    on = _suite_option(getattr(settings, "task", LEVEL.name))
-    print(f"Next: colift run {argument(best)}{on}, or colift check {argument(best)}{on}")
+    print(f"Next: {next_commands(argument(best), settings)}")
 
 
-def _suite_option(task: str) -> str:
-    """Return the option that names the first suite of a task; empty for ``level``."""
-    if task == LEVEL.name:
-        return ""
-    suites = (make_suite(name) for name in own_entries(SUITES))
-    return f" --suite {next(s.name for s in suites if s.scenarios[0].task.name == task)}"
+def next_commands(policy: str, settings: Any) -> str:
+    """Return the commands that play a trained policy in its suite, or else in a lift."""
+    task = getattr(settings, "task", LEVEL.name)
+    suite = SESSIONS if getattr(settings, "session", "") else _suite_of(task)
+    if suite is None:
+        return f"colift render {policy} --task {task} --out lift.png"
+    on = "" if suite == STANDARD_SUITE else f" --suite {suite}"
+    return f"colift run {policy}{on}, or colift check {policy}{on}"
+
+
+def _suite_of(task: str) -> str | None:
+    """Return the first suite of a task, one of colift's own if possible; None if there is none."""
+    for name in (STANDARD_SUITE, *own_entries(SUITES), *entries(SUITES)):
+        with suppress(InputError):  # Other packages' suites may be faulty.
+            if make_suite(name).scenarios[0].task.name == task:
+                return name
+    return None
 
 
 @contextmanager

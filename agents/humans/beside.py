@@ -54,7 +54,7 @@ def _faults(times: Series, heights: Series, beside: dict[str, Series]) -> Iterat
     if tilts is not None:
         yield from _of_tilt(times, tilts)
     if far is not None and tilts is not None:
-        yield from _contradiction(times, heights - far, tilts)
+        yield from contradiction(times, heights - far, tilts)
     if forces is not None:
         yield from _of_force(forces)
 
@@ -96,21 +96,27 @@ def _of_tilt(times: Series, tilts: Series) -> Iterator[Fault]:
         )
 
 
-def _contradiction(times: Series, differences: Series, tilts: Series) -> Iterator[Fault]:
-    """Yield a fault if no table has these height differences [m] at these inclinations [deg]."""
+def contradiction(
+    times: Series, differences: Series, tilts: Series, lengths: tuple[float, float] = LENGTHS
+) -> Iterator[Fault]:
+    """Yield a fault if no table has these height differences [m] at these inclinations [deg].
+
+    ``lengths`` are the least and the greatest length of a table [m].
+    """
+    low, high = lengths
     sines = np.sin(np.radians(tilts))
     squares = float(sines @ sines)
-    length = float(sines @ differences) / squares if squares > 0.0 else LENGTHS[0]
-    apart = differences - min(max(length, LENGTHS[0]), LENGTHS[1]) * sines
+    length = float(sines @ differences) / squares if squares > 0.0 else low
+    apart = differences - min(max(length, low), high) * sines
     if np.sqrt(np.mean(apart**2)) > AGREEING:
         i = int(np.abs(apart).argmax())
         yield Fault(
             i,
             f"{FAR} and {TILT} contradict each other: at {times[i]:g} s, z_m is "
             f"{1000 * differences[i]:.0f} mm above {FAR} at {tilts[i]:.1f} deg, which no table of "
-            f"{LENGTHS[0]:g} to {LENGTHS[1]:g} m is at all times of the lift (positive: the end of "
-            "z_m is the higher one; in degrees, not radians): correct one of the two columns, or "
-            "leave it out",
+            f"{f'{low:g} m' if low == high else f'{low:g} to {high:g} m'} is at all times of the "
+            "lift (positive: the end of z_m is the higher one; in degrees, not radians): correct "
+            "one of the two columns, or leave it out",
         )
 
 

@@ -11,7 +11,7 @@ from colift.agents.humans.subject import Subject
 from colift.base.errors import InputError
 
 NAMELESS: Final = "person"
-"""The person of lifts without a name."""
+"""The person of all lifts of a file that names nobody."""
 
 COUNTED: Final = 3
 """Most lifts at the end of a series that count."""
@@ -63,15 +63,22 @@ class RecordedSeries(Recorded):
         return self.at(min(self.place + 1, len(self.lifts) - 1))
 
 
+def names_people(recordings: Sequence[Recording]) -> bool:
+    """Return whether any recording names its person."""
+    return any(recording.person for recording in recordings)
+
+
 def series_of(recordings: Sequence[Recording]) -> dict[str, RecordedSeries]:
     """Return the series of each person with several lifts, by the person's name.
 
-    All have as many lifts as the person with the fewest. Lifts without a name are one person's,
-    ``person``.
+    All have as many lifts as the person with the fewest. If nobody is named, all lifts are one
+    person's, ``person``; beside people with names, lifts without one are in no series.
     """
+    named = names_people(recordings)
     people: dict[str, list[Recording]] = {}
     for recording in recordings:
-        people.setdefault(recording.person or NAMELESS, []).append(recording)
+        if recording.person or not named:
+            people.setdefault(recording.person or NAMELESS, []).append(recording)
     several = {name: lifts for name, lifts in people.items() if len(lifts) > 1}
     fewest = min(map(len, several.values()), default=0)
     return {name: RecordedSeries.of(tuple(lifts[:fewest])) for name, lifts in several.items()}

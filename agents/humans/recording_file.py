@@ -123,11 +123,11 @@ def _check_header(path: Path, header: Sequence[str]) -> None:
     needed = ",".join(COLUMNS)
     if not any(header):
         raise InputError(f"{path}: empty file, needs the columns {needed}")
-    for column in (*COLUMNS, PHASE, *BESIDE):
+    for column in ALL:
         if header.count(column) > 1:
             raise InputError(
                 f"{path}: the column {column} is there {header.count(column)} times, must be there "
-                "once: keep that of one marker"
+                "once: keep the right one"
             )
     missing = [column for column in COLUMNS if column not in header]
     if missing:

@@ -10,6 +10,7 @@ from typing import Any, Final
 from colift.agents.submissions import fields
 from colift.agents.submissions.manifest import MANIFEST, OF_CODE, Manifest
 from colift.base.errors import InputError
+from colift.base.places import check_empty
 
 PLACEHOLDER: Final = "my-policy"
 """The name of the policy in the template."""
@@ -91,12 +92,9 @@ def write_files(folder: Path, policy: bytes, content: Mapping[str, Any]) -> tupl
     InputError
         As :func:`write_template`.
     """
+    check_empty(folder)
     try:
-        if folder.is_symlink() or (folder.exists() and not folder.is_dir()):
-            raise InputError(f"{folder} is there already; name a new folder")
         folder.mkdir(parents=True, exist_ok=True)
-        if any(folder.iterdir()):
-            raise InputError(f"{folder} is not empty; name a new folder")
         name = content.get("model", POLICY)
         (folder / name).write_bytes(policy)
         (folder / MANIFEST).write_text(_manifest({"name": _name(folder), **content}))

@@ -10,17 +10,9 @@ import numpy as np
 from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.spec import AgentSpec
 from colift.benchmark.admission.blind_reference import BLIND, BlindReference, has_blind_reference
-from colift.benchmark.admission.criteria import (
-    Criterion,
-    conventions,
-    interaction,
-    like_people,
-    needs_partner,
-    no_free_ride,
-    rank_changes,
-)
+from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.evidence import Evidence
-from colift.benchmark.admission.fragility import with_fragility
+from colift.benchmark.admission.fragility import judged
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.players import HOLD, acts_alone, other_settings, players
 from colift.benchmark.admission.published import NOT_COMPARED, compared
@@ -134,19 +126,14 @@ def admission_of(
         alone=frozenset(n for n in names if acts_alone(n)) | ({BLIND} & set(references)),
         idle=HOLD,
         two_people=HUMAN_HUMAN_LABEL,
-    )
-    criteria = (
-        needs_partner(evidence),
-        interaction(evidence),
-        rank_changes(evidence),
-        conventions(pairs),
-        like_people(compared(human_human), NOT_COMPARED.get(task, "nothing was published")),
-        no_free_ride(evidence),
+        pairs=pairs,
+        compared=compared(human_human),
+        not_compared=NOT_COMPARED.get(task, "nothing was published"),
     )
     return Admission(
         suite=suite.name,
         digest=suite.digest,
         means=played.means,
-        criteria=with_fragility(evidence, criteria),
+        criteria=judged(evidence),
         control=control,
     )

@@ -5,15 +5,13 @@ from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 import numpy as np
-from colift.benchmark.admission.evidence import Evidence
+from colift.benchmark.admission.evidence import Evidence, without_pair
 from colift.benchmark.admission.jackknife import ratio_interval, spread
 from colift.benchmark.admission.played import Played
-from colift.benchmark.admission.published import Compared
 from colift.benchmark.admission.swaps import FAMILY, swaps
 from colift.benchmark.admission.variance import VarianceShares, variance_shares
 from colift.benchmark.episode.metrics import FAILED_FRAME_MM
 from colift.benchmark.statistics import FloatArray, Interval
-from numpy.typing import NDArray
 
 PARTNER: Final = 1.5
 """Least error of a robot that acts alone, over that of the best known: one that heeds its partner
@@ -54,7 +52,8 @@ class Criterion:
     passed: bool | None = None
     """Whether the whole interval is within the limit; None if it was not compared."""
     hangs_on: tuple[str, ...] = ()
-    """The policies and people without any of whom the opposite would be so."""
+    """The policies, people and pairs that decide it: without any one of them, it has the opposite
+    result."""
 
     @property
     def verdict(self) -> Verdict:
@@ -64,6 +63,16 @@ class Criterion:
         if self.hangs_on:
             return "undecided"
         return "passed" if self.passed else "failed"
+
+    @property
+    def doubt(self) -> str:
+        """Why it is undecided, in words; empty if it is not."""
+        if not self.hangs_on:
+            return ""
+        opposite = "fails" if self.passed else "passes"
+        *others, last = self.hangs_on
+        names = f"any one of {', '.join(others)} and {last}" if others else last
+        return f"it {opposite} without {names}"
 
 
 def needs_partner(evidence: Evidence) -> Criterion:
@@ -154,15 +163,8 @@ def rank_changes(evidence: Evidence) -> Criterion:
     )
 
 
-def conventions(played: NDArray[np.float64] | None) -> Criterion:
-    """Return whether pairs that were trained apart do better with their own partners.
-
-    Parameters
-    ----------
-    played
-        (n, n) mean RMSE of each person with each robot of n pairs [mm], three or more; None: no
-        pair was trained.
-    """
+def conventions(evidence: Evidence) -> Criterion:
+    """Return whether pairs that were trained apart do better with their own partners."""
     stated = Criterion(
         letter="d",
         claim=COORDINATION,
@@ -170,7 +172,7 @@ def conventions(played: NDArray[np.float64] | None) -> Criterion:
         bar="above 1",
         detail="no pair was trained for this test",
     )
-    if played is None:
+    if evidence.pairs is None:
         return stated
 
     def own_across(errors: FloatArray) -> tuple[float, float]:
@@ -181,10 +183,10 @@ def conventions(played: NDArray[np.float64] | None) -> Criterion:
         own, across = own_across(errors)
         return across / own
 
-    count = len(played)
-    left = [ratio(np.delete(np.delete(played, i, 0), i, 1)) for i in range(count)]
-    low, high = ratio_interval(ratio(played), left)
-    own, across = own_across(played)
+    count = len(evidence.pairs)
+    left = [ratio(without_pair(evidence.pairs, i)) for i in range(count)]
+    low, high = ratio_interval(ratio(evidence.pairs), left)
+    own, across = own_across(evidence.pairs)
     return replace(
         stated,
         figure=across / own,
@@ -194,25 +196,23 @@ def conventions(played: NDArray[np.float64] | None) -> Criterion:
     )
 
 
-def like_people(compared: Compared | None, why: str) -> Criterion:
-    """Return whether two simulated people are in a published interval.
-
-    Parameters
-    ----------
-    compared
-        The published figure, and that of the simulated pair; None if there is none.
-    why
-        Why there is none, in words.
-    """
-    what = "two simulated people are like real ones"
-    if compared is None:
-        return Criterion(letter="e", claim=COORDINATION, what=what, bar="as published", detail=why)
-    published, figure = compared.published, compared.figure
-    low, high = spread(compared.without_person).around(figure)
-    return Criterion(
+def like_people(evidence: Evidence) -> Criterion:
+    """Return whether two simulated people are in a published interval."""
+    stated = Criterion(
         letter="e",
         claim=COORDINATION,
-        what=f"{what}: {published.what}",
+        what="two simulated people are like real ones",
+        bar="as published",
+        detail=evidence.not_compared,
+    )
+    compared = evidence.compared
+    if compared is None:
+        return stated
+    published, figure = compared.published, compared.figure
+    low, high = spread(compared.without_each).around(figure)
+    return replace(
+        stated,
+        what=f"{stated.what}: {published.what}",
         bar=published.interval,
         figure=figure,
         ci95=(low, high),
@@ -244,16 +244,6 @@ def no_free_ride(evidence: Evidence) -> Criterion:
         detail=f"{evidence.idle} {found[evidence.idle]:.1f} mm, two people "
         f"{found[evidence.two_people]:.1f} mm (at most {worst:.0f}), a frame after a drop "
         f"{FAILED_FRAME_MM:.0f} mm",
-    )
-
-
-def of_evidence(evidence: Evidence) -> tuple[Criterion, ...]:
-    """Return the criteria that follow from the errors of the suite's lifts: a, b, c and f."""
-    return (
-        needs_partner(evidence),
-        interaction(evidence),
-        rank_changes(evidence),
-        no_free_ride(evidence),
     )
 
 

@@ -1,10 +1,9 @@
 """Published figures of two people, as references for the simulated pair of a task."""
 
-import dataclasses
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Callable, Mapping, Set
+from dataclasses import dataclass, replace
+from typing import Final, Self
 
 import numpy as np
 from colift.benchmark.execution.runner import Run
@@ -14,8 +13,8 @@ from colift.benchmark.tasks.ball.task import BallSteering
 from colift.benchmark.tasks.intent.task import Intent
 from numpy.typing import NDArray
 
-Figure = Callable[[str | None], float]
-"""Returns a figure of a pair from its lifts without a person, or with all people."""
+Figure = Callable[[Set[str]], float]
+"""Returns a figure of a pair from its lifts without some people."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,9 +45,24 @@ class Compared:
     """A published figure, and that of two simulated people."""
 
     published: Published
-    figure: float
-    without_person: tuple[float, ...]
-    """The figure without each of the people."""
+    measured: Figure
+    people: tuple[str, ...]
+    left_out: frozenset[str] = frozenset()
+
+    @property
+    def figure(self) -> float:
+        """The figure of the simulated people."""
+        return self.measured(self.left_out)
+
+    @property
+    def without_each(self) -> tuple[float, ...]:
+        """The figure without each of the people."""
+        return tuple(self.measured(self.left_out | {each}) for each in self.people)
+
+    def without(self, person: str) -> Self:
+        """Return the comparison without a person."""
+        kept = tuple(each for each in self.people if each != person)
+        return replace(self, people=kept, left_out=self.left_out | {person})
 
 
 def compared(human_human: Run) -> Compared | None:
@@ -56,10 +70,9 @@ def compared(human_human: Run) -> Compared | None:
     published = PUBLISHED.get(human_human.suite.scenarios[0].task.name)
     if published is None:
         return None
-    measured = published.measure(human_human)
     people = dict.fromkeys(each.subject for each in human_human.episodes)
     return Compared(
-        published=published, figure=measured(None), without_person=tuple(map(measured, people))
+        published=published, measured=published.measure(human_human), people=tuple(people)
     )
 
 
@@ -75,9 +88,9 @@ def negotiation_s(run: Run) -> Figure:
         if each.failure is None and math.isfinite(each.scores["settling_ms"])
     ]
 
-    def figure(left_out: str | None) -> float:
+    def figure(left_out: Set[str]) -> float:
         negotiated, other = (
-            np.mean([time for who, found, time in times if who != left_out and found == kind])
+            np.mean([time for who, found, time in times if who not in left_out and found == kind])
             for kind in (True, False)
         )
         return float(negotiated - other)
@@ -96,16 +109,15 @@ def roles_mw(run: Run) -> Figure:
     suite = run.suite.with_seeds(0, CROSSING_SEEDS)
     both = [each for each in suite.scenarios if each.behaviour in ("abreast", "ahead", "behind")]
     task = Agree(uncertainty=LITTLE_KNOWN)
-    uncertain = [dataclasses.replace(each, task=task) for each in both]
+    uncertain = [replace(each, task=task) for each in both]
     more, less = (
-        human_human_run(dataclasses.replace(suite, scenarios=tuple(each)))
-        for each in (uncertain, both)
+        human_human_run(replace(suite, scenarios=tuple(each))) for each in (uncertain, both)
     )
     gained = _leading_mw(more) - _leading_mw(less)
-    people = np.array([each.subject for each in less.episodes])
+    people = [each.subject for each in less.episodes]
 
-    def figure(left_out: str | None) -> float:
-        return float(np.nanmean(gained[people != left_out]))
+    def figure(left_out: Set[str]) -> float:
+        return float(np.nanmean(gained[[each not in left_out for each in people]]))
 
     return figure
 

@@ -5,30 +5,28 @@ one that does not, and one that does not and is told the person's habits.
 """
 
 import dataclasses
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from itertools import chain
 from typing import Final
 
 import numpy as np
-from colift.agents.agent import Agent
 from colift.agents.control.recurrent import GatedNetwork
-from colift.agents.sessions.session_controller import SessionController
-from colift.agents.spec import InProcess
 from colift.base.errors import InputError
 from colift.benchmark.admission.assessment import Admission
 from colift.benchmark.admission.criteria import Criterion
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.ratio import ratio_criterion
-from colift.benchmark.episode.loop import Episode
-from colift.benchmark.execution.playing import play_session
-from colift.benchmark.execution.runner import Run
+from colift.benchmark.admission.session_players import (
+    FORGET,
+    OTHER,
+    PLAYERS,
+    REMEMBER,
+    scores_of,
+)
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
-from colift.benchmark.suites.suite import Due, Suite
+from colift.benchmark.suites.suite import Suite
 from colift.benchmark.tasks.session.habitual import Habitual
-from colift.benchmark.tasks.session.told_controller import ToldSession
 from colift.benchmark.training.session_kinds import Kind
 
 MEMORY: Final = "it pays to remember the person"
@@ -43,73 +41,7 @@ OWN: Final = 0.8
 NOTHING: Final = 0.95
 """Least of the first ratio where people have no habits."""
 
-REMEMBER: Final = "remember"
-FORGET: Final = "forget"
-TOLD: Final = "told"
-OTHER: Final = "another's memory"
 FIRST, LAST = "two people, first lift", "two people, last lifts"
-
-PLAYERS: Final = (REMEMBER, FORGET, TOLD, OTHER)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Given(InProcess):
-    """An agent that is there already, as :class:`.AgentSpec`."""
-
-    made: Agent
-    name: str = ""
-
-    def check(self) -> None:
-        """Do nothing."""
-
-    def digest(self) -> str:
-        """Return nothing: it has no place in a table."""
-        return ""
-
-    def make(self) -> Agent:
-        """Return the agent."""
-        return self.made
-
-
-class Implanted(SessionController):
-    """A network whose units are exchanged before one lift of a session."""
-
-    def __init__(self, network: GatedNetwork, units: object, place: int) -> None:
-        super().__init__(network)
-        self._units, self._left = units, place
-
-    def reset(self, seed: int) -> None:
-        """Begin a lift; the one at the place begins with the other units."""
-        super().reset(seed)
-        if self._left == 0:
-            self._memory = self._memory._replace(units=self._units)
-        self._left -= 1
-
-
-@dataclass(frozen=True, kw_only=True)
-class SessionTask:
-    """The session of one person with a player, for a worker process."""
-
-    player: str
-    """One of :data:`PLAYERS`."""
-    network: GatedNetwork
-    lifts: tuple[Due, ...]
-    before: tuple[Due, ...]
-    """The first lifts of another person, whose memory :data:`OTHER` has in the lifts that count."""
-
-    def __call__(self) -> list[Episode]:
-        """Return the episodes."""
-        return list(play_session(Given(made=self._agent()), self.lifts))
-
-    def _agent(self) -> Agent:
-        if self.player == TOLD:
-            return ToldSession(self.network, self.lifts[0].scenario.subject)
-        if self.player != OTHER:
-            return SessionController(self.network, remember=self.player == REMEMBER)
-        elsewhere = SessionController(self.network)
-        for _ in play_session(Given(made=elsewhere), self.before):
-            pass
-        return Implanted(self.network, elsewhere.units, len(self.before))
 
 
 def check_people(suite: Suite) -> None:
@@ -154,13 +86,13 @@ def memory_of(
     every: dict[str, GatedNetwork] = dict(networks.items())
     every[OTHER] = networks[REMEMBER]
     tables = {HUMAN_HUMAN_LABEL: people} | {
-        name: _table(suite, name, every[name], executor, progress) for name in PLAYERS
+        name: scores_of(suite, name, every[name], executor, progress) for name in PLAYERS
     }
     played = Played.of(tables)
     control = without_habits(suite)
     usual = Played.of(
         {
-            name: _table(control, name, every[name], executor, progress)
+            name: scores_of(control, name, every[name], executor, progress)
             for name in (REMEMBER, FORGET)
         }
     )
@@ -231,41 +163,11 @@ def without_habits(suite: Suite) -> Suite:
     return dataclasses.replace(suite, name=f"{suite.name} (no habits)", scenarios=scenarios)
 
 
-def _table(
-    suite: Suite,
-    player: str,
-    network: GatedNetwork,
-    executor: Executor | None,
-    progress: Callable[[int], None],
-) -> ScoreTable:
-    """Return the scores of a player."""
-    tasks = list(_tasks(suite, player, network))
-    play = SessionTask.__call__
-    found = map(play, tasks) if executor is None else executor.map(play, tasks)
-    sessions: list[list[Episode]] = []
-    for session in found:
-        sessions.append(session)
-        progress(len(session))
-    episodes = tuple(chain.from_iterable(sessions))
-    return ScoreTable.of(Run(policy=player, policy_digest="", suite=suite, episodes=episodes))
-
-
-def _tasks(suite: Suite, player: str, network: GatedNetwork) -> Iterator[SessionTask]:
-    lifts = [suite.at(place) for place in range(suite.size)]
-    sessions = [
-        tuple(lifts[first : first + suite.session]) for first in range(0, suite.size, suite.session)
-    ]
-    known = sum(not suite.counts(place) for place in range(suite.session))
-    for number, session in enumerate(sessions):
-        other = sessions[(number + 1) % len(sessions)]
-        yield SessionTask(player=player, network=network, lifts=session, before=other[:known])
-
-
 def _improvement(suite: Suite, people: ScoreTable) -> Played:
     """Return the errors of two people in the first lift, and in those that count."""
     errors = np.reshape(people.lifts_mm, (-1, suite.session))
     counted = sum(map(suite.counts, range(suite.session)))
     last = errors[:, -counted:]
     first = np.repeat(errors[:, :1], counted, axis=1)
-    names: Sequence[str] = [each.subject.name for each in suite.scenarios]
-    return Played(players=(FIRST, LAST), people=tuple(names), errors=np.array((first, last)))
+    names = tuple(each.subject.name for each in suite.scenarios)
+    return Played(players=(FIRST, LAST), people=names, errors=np.array((first, last)))

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from colift.base.errors import InputError
+from colift.base.places import check_beside
 
 RESULTS: Final = "results.json"
 EPISODES: Final = "episodes.csv"
@@ -57,12 +58,7 @@ def check_bundle_folder(folder: Path) -> None:
         others = sorted({path.name for path in folder.iterdir()} - set(LARGEST))
         if others:
             raise InputError(f"{folder} holds other files ({others[0]}); name a new folder")
-    try:
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=folder.parent):
-            pass
-    except OSError as error:
-        raise InputError(f"cannot write to {folder.parent}: {error.strerror}") from error
+    check_beside(folder)
 
 
 def check_unfinished(folder: Path) -> None:

@@ -13,6 +13,24 @@ from colift.benchmark.execution.runner import Run
 from colift.benchmark.results.baselines import play_baselines, shipped_baselines
 
 
+def read_claims(folder: Path) -> Bundle:
+    """Return the claims of the bundle in a folder.
+
+    Raises
+    ------
+    InputError
+        If there is no bundle, or it is damaged; it names the folder.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder}: no such folder; name that of a result bundle")
+    if not is_bundle(folder):
+        raise InputError(f"{folder} has no {RESULTS}: name the folder of a result bundle")
+    try:
+        return read_bundle(folder)
+    except InputError as error:
+        raise InputError(f"{folder}: {error}") from error
+
+
 def read_present(folder: Path) -> tuple[Bundle, Run]:
     """Return the claims of the bundle in a folder, and the run that they are of.
 
@@ -22,12 +40,8 @@ def read_present(folder: Path) -> tuple[Bundle, Run]:
         If there is no bundle, it is damaged, or its suite or its scores are not those of this
         version of colift.
     """
-    if not folder.is_dir():
-        raise InputError(f"{folder}: no such folder; name that of a result bundle")
-    if not is_bundle(folder):
-        raise InputError(f"{folder} has no {RESULTS}: name the folder of a result bundle")
+    bundle = read_claims(folder)
     try:
-        bundle = read_bundle(folder)
         run = bundle.run()
     except InputError as error:
         raise InputError(f"{folder}: {error}") from error

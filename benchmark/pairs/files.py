@@ -6,11 +6,16 @@ import json
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
+from colift.base.errors import InputError
 from colift.benchmark.pairs.coordination import measure_of
 from colift.benchmark.pairs.recorded import RecordedPairs
 from colift.benchmark.pairs.summary import Averaged, PairsSummary
+from colift.benchmark.rendering.layout import SUFFIXES
+
+NAME: Final = "pairs"
+"""Name of all files, without its suffix."""
 
 
 def pairs_json(summary: PairsSummary) -> dict[str, Any]:
@@ -59,6 +64,20 @@ def pairs_csv(summary: PairsSummary) -> str:
     return text.getvalue()
 
 
+def check_pairs_folder(folder: Path) -> None:
+    """Refuse a folder with a file that :func:`write_pairs` would replace.
+
+    Raises
+    ------
+    InputError
+        If there is one: the recordings themselves may be called ``pairs.csv``.
+    """
+    for suffix in (".json", ".csv", *SUFFIXES):
+        path = folder / f"{NAME}{suffix}"
+        if path.exists():
+            raise InputError(f"{path} exists; name a new folder")
+
+
 def write_pairs(folder: Path, pairs: RecordedPairs, summary: PairsSummary) -> None:
     """Write ``pairs.json``, ``pairs.csv``, and the picture as PNG, SVG and PDF into a folder.
 
@@ -74,8 +93,8 @@ def write_pairs(folder: Path, pairs: RecordedPairs, summary: PairsSummary) -> No
 
     folder.mkdir(parents=True, exist_ok=True)
     content = json.dumps(pairs_json(summary), indent=2, allow_nan=False) + "\n"
-    (folder / "pairs.json").write_text(content, encoding="utf-8")
-    (folder / "pairs.csv").write_text(pairs_csv(summary), encoding="utf-8")
+    (folder / f"{NAME}.json").write_text(content, encoding="utf-8")
+    (folder / f"{NAME}.csv").write_text(pairs_csv(summary), encoding="utf-8")
     with drawn_for(PAGE):
         figure = pairs_figure(pairs, summary)
-    write_all(folder, "pairs", figure, f"Recorded pairs of {summary.source}, and simulated ones")
+    write_all(folder, NAME, figure, f"Recorded pairs of {summary.source}, and simulated ones")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from colift.agents.humans import Trial, load_trials
-from colift.agents.humans.beside import LENGTHS
+from colift.agents.humans.beside import LENGTHS, contradiction
 from colift.agents.humans.recording_file import other_columns
 from colift.agents.humans.recordings import FAR, TILT
 from colift.base.errors import InputError
@@ -54,8 +54,8 @@ def recorded_pairs(path: Path, length: float | None = None) -> RecordedPairs:
     Raises
     ------
     InputError
-        If the file cannot be used, no trial has a far end, or the length is missing or out of
-        range.
+        If the file cannot be used, no trial has a far end, or the length is missing, out of range,
+        or not that of a trial's heights and inclinations.
     """
     if length is not None and not LENGTHS[0] <= length <= LENGTHS[1]:
         raise InputError(
@@ -75,6 +75,14 @@ def recorded_pairs(path: Path, length: float | None = None) -> RecordedPairs:
                 f"{path}: trial {trial.recording.name!r:.80} has {TILT} but no {FAR}: its height "
                 "differences follow from the distance between the table's ends: --length METRES"
             )
+        if trial.far and trial.tilts and length is not None:
+            differences = trial.heights - np.array(trial.far)
+            tilts = np.array(trial.tilts)
+            for fault in contradiction(trial.times, differences, tilts, (length, length)):
+                raise InputError(
+                    f"{path}: trial {trial.recording.name!r:.80} is of no table of --length "
+                    f"{length:g}: {fault.text}"
+                )
     names = [trial.recording.name for trial in trials if not (trial.far or trial.tilts)]
     return RecordedPairs(lifts=pair_lifts(trials, length), without=tuple(names))
 

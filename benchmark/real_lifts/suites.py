@@ -15,7 +15,7 @@ from colift.agents.humans import (
     missed_words,
 )
 from colift.agents.humans.as_recorded import heights_of
-from colift.agents.humans.recorded_series import series_of
+from colift.agents.humans.recorded_series import names_people, series_of
 from colift.base.errors import InputError
 from colift.benchmark.bundle import one_line, read_bundle
 from colift.benchmark.episode.scenario import Scenario
@@ -42,6 +42,8 @@ class RealLifts:
     """The lifts that count."""
     left_out: Mapping[str, str] = field(default_factory=dict)
     """The reason why each other lift does not count, by its trial or the name of its folder."""
+    assumed: str = ""
+    """What the lifts are taken for without being told, in words."""
 
 
 def played_lifts(session: Path) -> RealLifts:
@@ -148,7 +150,8 @@ def lifts_as_recorded(
 def recorded_sessions(recordings: Sequence[Recording], source: str) -> RealLifts:
     """Return recorded lifts as sessions, one of each person, scaled like :func:`.recorded_suite`.
 
-    Lifts beyond those of the person with the fewest, and people with one lift, are left out.
+    Lifts beyond those of the person with the fewest, and people with one lift, are left out; so are
+    lifts without a name beside people who have one.
 
     Raises
     ------
@@ -172,13 +175,17 @@ def recorded_sessions(recordings: Sequence[Recording], source: str) -> RealLifts
     )
     name = plain_name(f"recordings {source} in sessions")
     suite = Suite(name=name, scenarios=scenarios, seeds=tuple(range(length)))
+    named = names_people(recordings)
     return RealLifts(
         suite=suite,
         left_out={
             recording.name: f"a session has {length} lifts of each person"
+            if recording.person or not named
+            else "its person is not named, as others are"
             for recording in recordings
             if recording.name not in kept
         },
+        assumed="" if named else "no person is named, so all lifts are taken as one person's",
     )
 
 

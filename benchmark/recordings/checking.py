@@ -6,7 +6,7 @@ from typing import Final
 import numpy as np
 from colift.agents.humans.artefacts import FARTHEST, FEWEST, HOLE, LARGEST, LOWEST_RATE
 from colift.base.errors import InputError
-from colift.benchmark.recordings.motion import Motion, Series, zeros
+from colift.benchmark.recordings.motion import LENGTHS, Motion, Series, zeros
 from colift.benchmark.recordings.unseen import without_numbers
 
 LONGEST_HOLE: Final = 60.0
@@ -21,6 +21,21 @@ UNITS: Final = (
     (np.inf, "nanoseconds", "ns"),
 )
 """Largest interval of motion capture in a unit, its name and its symbol."""
+
+
+def check_stated_unit(motion: Motion, where: str) -> None:
+    """Refuse a motion in a unit that is none of length.
+
+    Raises
+    ------
+    InputError
+        If the file states such a unit.
+    """
+    if motion.unit and motion.unit not in LENGTHS:
+        raise InputError(
+            f"{where}: the unit of length is {motion.unit!r:.40}, must be one of "
+            f"{', '.join(LENGTHS)}: name it with --unit"
+        )
 
 
 def check_clock(motion: Motion, where: str) -> None:
@@ -54,12 +69,20 @@ def check_clock(motion: Motion, where: str) -> None:
         raise InputError(
             f"{where}, {motion.where(longest + 1)}: no sample for {steps[longest]:g} s, from "
             f"{_since(motion, longest)} s on: a clock that jumped, or two recordings in one file; "
-            f"read one part with --between 0:{_since(motion, longest)}, or correct the times"
+            f"{_read_before(motion, longest, 'or ')}correct the times"
         )
 
 
 def _since(motion: Motion, sample: int) -> str:
-    return f"{motion.times[sample] - motion.times[0]:.6g}"
+    """Return the time of a sample from the first one [s], as exactly as ``--between`` takes it."""
+    return f"{motion.times[sample] - motion.times[0]:.6f}".rstrip("0").rstrip(".")
+
+
+def _read_before(motion: Motion, sample: int, then: str = "") -> str:
+    """Return the advice to read the samples up to one, and a word; empty if they are too few."""
+    if sample + 1 < FEWEST:
+        return ""
+    return f"read the part before it with --between 0:{_since(motion, sample)}, {then}"
 
 
 def _check_order(motion: Motion, steps: Series, where: str) -> None:
@@ -71,9 +94,9 @@ def _check_order(motion: Motion, steps: Series, where: str) -> None:
     if steps[i] < 0.0:
         raise InputError(
             f"{at} goes back by {-steps[i]:g} s, {_since(motion, i)} s after the first sample: a "
-            "clock that was set back, or two takes or markers one after the other; read one part "
-            f"with --between 0:{_since(motion, i)}, name each take in a column 'trial', or count "
-            "samples by --rate HZ"
+            "clock that was set back, or two takes or markers one after the other; "
+            f"{_read_before(motion, i)}name each take in a column 'trial', or count samples by "
+            "--rate HZ"
         )
     span = motion.times[-1] - motion.times[0]
     likely = f" ({(len(steps)) / span:.4g}?)" if span > 0.0 else ""

@@ -8,7 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.recordings.columns import FRAMES, plain_name, time_unit, without_unit
-from colift.benchmark.recordings.headers import Table, column_of_times
+from colift.benchmark.recordings.headers import Table, check_single, column_of_times
 from colift.benchmark.recordings.motion import Series
 from colift.benchmark.recordings.texts import Line, is_number, numbers
 
@@ -36,15 +36,16 @@ def clock_of(table: Table, where: str) -> Clock:
     Raises
     ------
     InputError
-        If a field is no time.
+        If a field is no time, or the column is there twice.
     """
-    column = column_of_times(table)
+    column = column_of_times(table, where)
     if column is not None:
         return _times(table, column, where)
     frames = [i for i, title in enumerate(table.titles) if plain_name(title) in FRAMES]
     numbered = [i for i in frames if is_number(table.lines[0].at(i))]
     if numbered:
         column = numbered[0]
+        check_single(table, column, where)
         values = numbers(table.lines, [column], [table.titles[column]], table.decimal, where)[:, 0]
     else:
         values = np.arange(len(table.lines), dtype=float)

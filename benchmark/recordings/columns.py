@@ -196,13 +196,13 @@ def places_of(names: Sequence[str], units: Sequence[str], where: str) -> dict[in
         if (column := place_of(name, unit)) is not None
     }
     found |= _numbered(names, units, found)
-    seen: dict[tuple[str, int], str] = {}
+    seen: dict[tuple[str, int], int] = {}
     for i, column in found.items():
-        other = seen.setdefault((column.point, column.axis), names[i])
-        if other is not names[i]:
+        other = seen.setdefault((column.point, column.axis), i)
+        if other != i:
             raise InputError(
-                f"{where}: the columns {other!r:.40} and {names[i]!r:.40} are the same axis of the "
-                "same point: keep that of one marker, or give each marker a name of its own"
+                f"{where}: the columns {names[other]!r:.40} and {names[i]!r:.40} are the same axis "
+                "of the same point: keep that of one marker, or give each marker a name of its own"
             )
     return found
 

@@ -170,12 +170,37 @@ def _rate(settings: Sequence[str]) -> float:
     return 0.0
 
 
-def column_of_times(table: Table) -> int | None:
+def check_single(table: Table, column: int, where: str) -> None:
+    """Refuse a column that is read if another one has its title: which of them is right is unknown.
+
+    Raises
+    ------
+    InputError
+        If there is such a column.
+    """
+    title = plain_name(table.titles[column])
+    count = sum(plain_name(each) == title for each in table.titles)
+    if title and count > 1:
+        raise InputError(
+            f"{where}: the column {table.titles[column]!r:.40} is there {count} times, must be "
+            "there once: keep the right one"
+        )
+
+
+def column_of_times(table: Table, where: str) -> int | None:
     """Return the index of the column of times; None if there is none.
 
     The time of measurement, in a message's header, goes before that of its arrival.
+
+    Raises
+    ------
+    InputError
+        If it is there twice.
     """
     found = [i for i, title in enumerate(table.titles) if time_unit(title) is not None]
     found += [i for i in range(len(table.titles)) if MOMENT.match(table.lines[0].at(i))]
     stamps = [i for i in found if "header" in plain_name(table.titles[i]).split()]
-    return next(iter(stamps or found), None)
+    column = next(iter(stamps or found), None)
+    if column is not None:
+        check_single(table, column, where)
+    return column

@@ -3,8 +3,10 @@
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from tokenize import TokenError
 from typing import Final
 
+import numpy as np
 from colift.agents.humans.foreign_files import (
     AMC,
     BVH,
@@ -54,12 +56,20 @@ READERS: Final[Mapping[str, Reader]] = {
 }
 """Readers by the name of a format in :mod:`.foreign_files`."""
 
+BROKEN: Final = (
+    *(ArithmeticError, AssertionError, EOFError, LookupError, MemoryError, StopIteration),
+    *(SyntaxError, TokenError, TypeError, ValueError),
+)
+"""Errors of a reader at content that is not as its kind has it, or is cut off."""
+
 NUITRACK: Final = re.compile(r"\d+,\d{12,14},\d+(,-?\d|\n)")
 """The start of a text of Nuitrack: number, time since 1970 [ms], number of joints."""
 
 
 def read_motions(path: Path) -> tuple[Motion, ...]:
     """Return the motion of each take in a file, by the reader of its content.
+
+    Numbers that are not finite are NaN, and points of one name are numbered.
 
     Raises
     ------
@@ -73,8 +83,25 @@ def read_motions(path: Path) -> tuple[Motion, ...]:
     if name and name not in READERS:
         raise InputError(f"{path}: this is {name}, which colift does not read: {remedy(name)}")
     if not name and NUITRACK.match(_as_utf8(start, path).decode()):
-        return nuitrack.read(path)
-    return READERS.get(name, plain.read)(path)
+        motions = _read(nuitrack.read, path, "a text of Nuitrack")
+    else:
+        motions = _read(READERS.get(name, plain.read), path, name or "a table of text")
+    return tuple(motion.finite().told_apart() for motion in motions)
+
+
+def _read(reader: Reader, path: Path, kind: str) -> tuple[Motion, ...]:
+    """Return the motions of a file, or refuse it if the reader breaks off at its content."""
+    try:
+        with np.errstate(all="ignore"):
+            return reader(path)
+    except (InputError, OSError):
+        raise
+    except BROKEN as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise InputError(
+            f"{path}: this begins as {kind}, but cannot be read as one ({reason:.100}): export or "
+            "copy it again"
+        ) from None
 
 
 def _as_utf8(start: bytes, path: Path) -> bytes:

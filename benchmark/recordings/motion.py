@@ -1,16 +1,19 @@
 """Motion as a file holds it: the points that were recorded, over time."""
 
+from collections import Counter
 from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
-from colift.base.errors import InputError
 from numpy.typing import NDArray
 
 Series = NDArray[np.float64]
 
 AXES: Final = "XYZ"
 """The axes, in the order of the coordinates."""
+
+TOLERANCE: Final = 1e-6
+"""Tolerance of times that are compared [s]."""
 
 LENGTHS: Final = {"mm": 0.001, "cm": 0.01, "dm": 0.1, "m": 1.0, "in": 0.0254, "ft": 0.3048}
 """Units of length [m]."""
@@ -44,7 +47,8 @@ class Motion:
     place: str = "line"
     """The meaning of :attr:`places`."""
     unit: str
-    """Unit of lengths in the file; empty if neither the file nor its format states one."""
+    """Unit of lengths in the file, even an unknown one; empty if neither the file nor its format
+    states one."""
     metre: float
     """Metres per unit, by which the positions were multiplied."""
     up: str
@@ -66,6 +70,22 @@ class Motion:
         assert self.positions.shape == (len(self.times), len(self.names), 3)
         assert len(self.places) == len(self.times)
 
+    def finite(self) -> "Motion":
+        """Return the motion with NaN for the times and positions that are not finite."""
+        times, positions = (
+            np.where(np.isfinite(values), values, np.nan) for values in (self.times, self.positions)
+        )
+        return replace(self, times=times, positions=positions)
+
+    def told_apart(self) -> "Motion":
+        """Return the motion with points of one name numbered as if by subject: ``2:RFIN``."""
+        total, found = Counter(self.names), Counter[str]()
+        names: list[str] = []
+        for name in self.names:
+            found[name] += 1
+            names.append(f"{found[name]}:{name}" if total[name] > 1 else name)
+        return replace(self, names=tuple(names))
+
     def in_unit(self, metre: float, unit: str) -> "Motion":
         """Return the motion with its lengths read in another unit of so many metres."""
         return replace(
@@ -81,13 +101,19 @@ class Motion:
 
         Where the file numbers its frames and has no times, missing frames stay missing.
         """
-        frames = np.arange(len(self.times)) if self.clocked else self.times - self.times[0]
+        frames = np.arange(len(self.times)) if self.clocked else self.times - self.times[:1]
         return replace(self, times=frames / rate, clocked=True)
 
     def between(self, start: float, stop: float) -> "Motion":
-        """Return a part of the motion, in seconds from its first sample."""
-        since = self.times - self.times[0]
-        kept = (since >= start) & (since <= stop)
+        """Return a part of the motion, in seconds from its first sample.
+
+        It ends where the clock first comes to ``stop``, even if it is set back after that.
+        """
+        since = self.times - self.times[:1]
+        kept = (since >= start) & (since <= stop + TOLERANCE)
+        reached = since >= stop - TOLERANCE
+        if reached.any():
+            kept[reached.argmax() + 1 :] = False
         return replace(
             self,
             times=self.times[kept],
@@ -130,18 +156,10 @@ def length_of(text: str) -> float | None:
     return value if 0.0 < value < np.inf else None
 
 
-def stated_unit(text: str, where: str) -> tuple[str, float]:
-    """Return symbol and length [m] of the unit that a file states.
+def stated_unit(text: str) -> tuple[str, float]:
+    """Return symbol and length [m] of the unit that a file states; itself and 1 if it is unknown.
 
-    Raises
-    ------
-    InputError
-        If it is no unit of length.
+    An unknown unit is refused where nobody names another (:func:`.check_stated_unit`).
     """
     name = LENGTH_NAMES.get(text.strip().lower())
-    if name is None:
-        raise InputError(
-            f"{where}: the unit of length is {text!r:.40}, must be one of {', '.join(LENGTHS)}: "
-            "name it with --unit"
-        )
-    return name, LENGTHS[name]
+    return (text.strip(), 1.0) if name is None else (name, LENGTHS[name])

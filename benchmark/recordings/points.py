@@ -83,7 +83,7 @@ def common_unit(places: dict[int, Column], where: str) -> tuple[str, float] | No
     Raises
     ------
     InputError
-        If they state several, or one that is no unit of length.
+        If they state several.
     """
     units = {column.unit for column in places.values() if column.unit}
     if len(units) > 1:
@@ -91,4 +91,4 @@ def common_unit(places: dict[int, Column], where: str) -> tuple[str, float] | No
             f"{where}: the columns of positions are in {', '.join(sorted(units))}: write them in "
             "one unit"
         )
-    return stated_unit(units.pop(), where) if units else None
+    return stated_unit(units.pop()) if units else None

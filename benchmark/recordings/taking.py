@@ -8,13 +8,18 @@ from pathlib import Path
 import numpy as np
 from colift.agents.humans.artefacts import SHORTEST, fault
 from colift.base.errors import InputError
-from colift.benchmark.recordings.checking import check_clock, check_unit, with_gaps
+from colift.benchmark.recordings.checking import (
+    check_clock,
+    check_stated_unit,
+    check_unit,
+    with_gaps,
+)
 from colift.benchmark.recordings.choosing import Track, choose, other_axis
 from colift.benchmark.recordings.cutting import Cut, Lift, broken, cut_off, lifts_in, rise_in
 from colift.benchmark.recordings.kinds import read_motions
-from colift.benchmark.recordings.motion import Motion, Series
+from colift.benchmark.recordings.motion import TOLERANCE, Motion, Series
 from colift.benchmark.recordings.takes import Take, Taken
-from colift.benchmark.recordings.unseen import TOLERANCE, filled, gaps_in
+from colift.benchmark.recordings.unseen import filled, gaps_in
 from colift.benchmark.recordings.upright import check_up, up_of
 from colift.benchmark.recordings.wishes import Wishes
 
@@ -34,6 +39,8 @@ def takes_of(path: Path, wishes: Wishes) -> list[Take]:
 
 def _take(path: Path, motion: Motion, several: bool, wishes: Wishes) -> Take:
     where = f"{path}, trial {motion.take!r:.60}" if several else str(path)
+    if wishes.metre is None:
+        check_stated_unit(motion, where)
     motion = wishes.applied(motion)
     check_clock(motion, where)
     motion = with_gaps(replace(motion, times=motion.times - motion.times[0]))
@@ -114,6 +121,11 @@ def _taken(
             "with --leave-out, or choose a marker that was seen"
         )
     window = _seen_window(motion.times, track, start - TOLERANCE, stop + TOLERANCE)
+    if track.far is not None and not _whole(motion.times, window, lift):
+        raise InputError(
+            f"{at}: the other end was not seen from its start to its end: choose another marker "
+            "with --far, or leave the lift out with --leave-out"
+        )
     times = motion.times[window]
     heights, far, count = track.heights[window], track.far, 0
     heights, count = filled(times, heights, wishes.fill)
@@ -152,6 +164,14 @@ def _seen_window(times: Series, track: Track, start: float, stop: float) -> slic
         inside &= ~np.isnan(track.far)
     seen = np.flatnonzero(inside)
     return slice(int(seen[0]), int(seen[-1]) + 1) if seen.size else slice(0, 0)
+
+
+def _whole(times: Series, window: slice, lift: Lift) -> bool:
+    """Return whether samples are those of a whole lift; of a recording uncut, whether any are."""
+    start, stop = lift.span
+    inside = np.flatnonzero((times >= start - TOLERANCE) & (times <= stop + TOLERANCE))
+    needed = inside.tolist() if lift.phases else []
+    return window.start < window.stop and all(window.start <= i < window.stop for i in needed)
 
 
 def _refuse_gap(series: Series, name: str, track: Track, window: slice, at: str) -> None:

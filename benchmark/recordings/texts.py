@@ -124,16 +124,29 @@ def split_lines(text: str, delimiter: str, first: int = 1) -> list[Line]:
         The mark between columns; a blank for any white space.
     first
         Number of the first line in the file.
+
+    Raises
+    ------
+    ValueError
+        If a quotation mark opens a field that does not end: it would hide the lines after it.
     """
     rows = text.split("\n")
     if delimiter == " ":
         found = (Line(i, tuple(row.split())) for i, row in enumerate(rows, first))
         return [line for line in found if line.cells]
     reader = csv.reader(rows, delimiter=delimiter)
-    made, number = [], first
-    for row in reader:
-        made.append(Line(number, tuple(cell.strip() for cell in row)))
-        number = first + reader.line_num
+    made: list[Line] = []
+    start = 0
+    try:
+        for row in reader:
+            if reader.line_num > start + 1:
+                [*csv.reader(rows[start : reader.line_num], delimiter=delimiter, strict=True)]
+            made.append(Line(first + start, tuple(cell.strip() for cell in row)))
+            start = reader.line_num
+    except csv.Error:
+        raise ValueError(
+            f"line {first + start}: a quotation mark opens a field that does not end"
+        ) from None
     return [line for line in made if line.cells]
 
 
@@ -191,7 +204,6 @@ def numbers(
                 for i, (text, cell) in enumerate(zip(texts, cells, strict=True))
             ]
         )
-    values[np.isinf(values)] = np.nan
     return values.reshape(len(lines), len(columns))
 
 
@@ -214,6 +226,11 @@ def is_number(text: str) -> bool:
     except ValueError:
         return False
     return text.lower() not in UNSEEN
+
+
+def rate_in(text: str) -> float:
+    """Return the rate [Hz] in a field, with either decimal sign; 0 if there is none."""
+    return float(text.replace(",", ".", 1)) if is_number(text) else 0.0
 
 
 def check_widths(lines: Sequence[Line], width: int, where: str) -> None:

@@ -6,15 +6,11 @@ from typing import Final
 
 import numpy as np
 from colift.agents.humans.artefacts import STEP, UNSEEN
-from colift.benchmark.recordings.motion import Series
+from colift.benchmark.recordings.motion import TOLERANCE, Series
 from numpy.typing import NDArray
 
 SLOPE: Final = 5
 """Samples on each side of a gap from which the slope at its edge is taken."""
-
-
-TOLERANCE: Final = 1e-6
-"""Tolerance of times that are compared [s]."""
 
 
 @dataclass(frozen=True)

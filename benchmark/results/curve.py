@@ -59,7 +59,7 @@ class SessionCurve:
         change = self.change_mm
         return "; ".join(
             (
-                f"{100 * math.expm1(self.rate):+.0f} % from lift to lift",
+                *(() if len(self.rmse_mm) < 2 else [self._from_lift_to_lift]),
                 f"{self.whole:.1f} mm over all",
                 *(() if change is None else [f"{change.mean:+.1f} mm when a habit changes"]),
                 *(f"people's trust at the end {last.mean:.2f} of 1" for last in self.trust[-1:]),
@@ -72,8 +72,15 @@ class SessionCurve:
         return float(np.mean([each.mean for each in self.rmse_mm]))
 
     @property
+    def _from_lift_to_lift(self) -> str:
+        return f"{100 * math.expm1(self.rate):+.0f} % from lift to lift"
+
+    @property
     def rate(self) -> float:
-        """Change of the logarithm of the mean RMSE from lift to lift, by least squares."""
+        """Change of the logarithm of the mean RMSE from lift to lift, by least squares.
+
+        There must be two lifts or more.
+        """
         errors = [math.log(max(each.mean, LEAST)) for each in self.rmse_mm]
         return float(np.polyfit(range(len(errors)), errors, 1)[0])
 

@@ -7,7 +7,10 @@ from typing import Final, Literal, get_args
 from colift.base.errors import InputError
 from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.tasks.level.task import LEVEL
+from colift.benchmark.tasks.session.suites import LIFTS
+from colift.benchmark.tasks.touch import Touch
 from colift.benchmark.training.population import SHARE
+from colift.benchmark.training.validation import FEWEST, LEARNING_SEEDS
 
 NAME: Final = "apg"
 
@@ -19,6 +22,9 @@ Session = Literal["", "remember", "forget"]
 OF_SIGHT: Final = ("unsettled", "encoders", "smoothness", "gentleness", "session")
 """Settings that only the training of a level table uses."""
 
+OF_LIFTS: Final = ("wide", "unsettled", "varied", "smoothness", "gentleness")
+"""Settings that the training on sessions does not use."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ApgSettings:
@@ -27,7 +33,7 @@ class ApgSettings:
     Raises
     ------
     InputError
-        If a number is out of range.
+        If a number is out of range, a setting has no effect, or there is no twin of the task.
     """
 
     task: str = LEVEL.name
@@ -68,20 +74,12 @@ class ApgSettings:
 
     def __post_init__(self) -> None:
         """Check the ranges."""
-        task = make_task(self.task)
-        unused = OF_SIGHT if task.touch else ()
-        if task.touch and not any(trait.wider for trait in task.person.traits.values()):
-            unused = (*unused, "wide")
-        if not task.touch:
-            unused = (*unused, "alone")
         if self.session not in get_args(Session):
             raise InputError(f"--session must be remember or forget, got {self.session!r}")
+        self._check_task()
         if self.session:
-            unused = (*unused, "wide", "unsettled", "varied", "smoothness", "gentleness")
-        for name in unused:
-            if getattr(self, name) != getattr(ApgSettings, name):
-                what = "sessions" if self.session else f"the task {self.task!r}"
-                raise InputError(f"--{name} has no effect on {what}")
+            self._check_unused(OF_LIFTS, "sessions")
+        self._check_lifts()
         for name in ("updates", "units"):
             if getattr(self, name) < 1:
                 raise InputError(f"--{name} must be at least 1, got {getattr(self, name)}")
@@ -97,6 +95,29 @@ class ApgSettings:
         if not 0 < self.rate < 1:
             raise InputError(f"--rate must be between 0 and 1, got {self.rate}")
 
+    def _check_task(self) -> None:
+        """Check that the task can be learned, with these settings."""
+        unused: tuple[str, ...] = ("alone",)
+        if make_task(self.task) != LEVEL:
+            traits = task_by_rules(self.task).person.traits
+            wider = any(trait.wider for trait in traits.values())
+            unused = OF_SIGHT if wider else (*OF_SIGHT, "wide")
+        self._check_unused(unused, f"the task {self.task!r}")
+
+    def _check_unused(self, names: tuple[str, ...], what: str) -> None:
+        """Check that settings without effect on something are as they are by default."""
+        for name in names:
+            if getattr(self, name) != getattr(ApgSettings, name):
+                raise InputError(f"--{name} has no effect on {what}")
+
+    def _check_lifts(self) -> None:
+        """Check that there are so many lifts to learn from; of sessions, each has some."""
+        each = LIFTS if self.session else 1
+        least, most = FEWEST * each, len(LEARNING_SEEDS) * each
+        if not least <= self.lifts <= most:
+            where = " in sessions" if self.session else ""
+            raise InputError(f"--lifts must be {least} to {most}{where}, got {self.lifts}")
+
     def varied_in(self, update: int) -> float:
         """Return the variation of the arms in an update, of which 0 is the first."""
         return self.varied * (update + 1) / self.updates
@@ -105,6 +126,20 @@ class ApgSettings:
         """Return the settings that affect the loss of a batch, with defaults for the others."""
         others = ("updates", "rate", "varied")
         return replace(self, **{name: getattr(ApgSettings, name) for name in others})
+
+
+def task_by_rules(name: str) -> Touch:
+    """Return a task that is stated by rules, so that it has a twin.
+
+    Raises
+    ------
+    InputError
+        If there is no such task, or it is not stated by rules.
+    """
+    task = make_task(name)
+    if not isinstance(task, Touch):
+        raise InputError(f"the task {name!r} is not stated by rules, so that it has no twin")
+    return task
 
 
 def pair_settings(task: str) -> ApgSettings:

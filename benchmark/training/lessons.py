@@ -1,7 +1,6 @@
 """The lessons by the name of their task."""
 
 from functools import cache
-from typing import Final
 
 from colift.benchmark.suites.catalogue import make_task
 from colift.benchmark.suites.suite import make_suite
@@ -9,12 +8,9 @@ from colift.benchmark.tasks.level.task import LEVEL
 from colift.benchmark.training.apg_settings import ApgSettings
 from colift.benchmark.training.lesson import PolicyLesson
 from colift.benchmark.training.level_lesson import LevelLesson
-from colift.benchmark.training.session_kinds import Kind
+from colift.benchmark.training.session_kinds import SESSIONS, Kind
 from colift.benchmark.training.session_lesson import SessionLesson
 from colift.benchmark.training.touch_lesson import TouchLesson
-
-SESSIONS: Final = "session-v1"
-"""The suite whose sessions are learned from, with other people."""
 
 
 def lesson_for(settings: ApgSettings) -> PolicyLesson:

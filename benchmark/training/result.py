@@ -13,6 +13,7 @@ from colift.agents.submissions import network
 from colift.agents.submissions.network.policy import Network
 from colift.agents.submissions.new import write_files
 from colift.base.errors import InputError
+from colift.base.places import check_beside, check_empty
 from colift.benchmark.training.course import Course, put_in_place, write_whole
 from numpy.typing import NDArray
 
@@ -80,6 +81,20 @@ def write_policy(
         "trained_on": trained_on,
     }
     return write_network(course.policy, weights, about, package)
+
+
+def check_place(folder: Path) -> None:
+    """Refuse a folder for a trained network, before it is trained; make the folders above it.
+
+    Raises
+    ------
+    InputError
+        If it is not a new or empty folder, or cannot be written.
+    """
+    if not folder.name:
+        raise InputError(f"{folder} cannot be replaced; name a new folder")
+    check_empty(folder)
+    check_beside(folder)
 
 
 def write_network(

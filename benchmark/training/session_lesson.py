@@ -94,8 +94,10 @@ class SessionLesson:
 
     def draw(self, settings: ApgSettings) -> SessionPool:
         """Return sessions to learn from: as many lifts as the settings say."""
-        people = learning_seeds(max(settings.lifts // len(self._seeds), 2))
-        return self.sessions(people)
+        return self.sessions(self._people(settings))
+
+    def _people(self, settings: ApgSettings) -> range:
+        return learning_seeds(settings.lifts // len(self._seeds))
 
     def steps(self, pool: SessionPool) -> float:
         """Return the mean number of control steps of a session."""
@@ -149,7 +151,7 @@ class SessionLesson:
 
     def about(self, settings: ApgSettings) -> tuple[str, str]:
         """Return the manifest's ``description`` and ``trained_on``."""
-        people = learning_seeds(max(settings.lifts // len(self._seeds), 2))
+        people = self._people(settings)
         return (
             f"A straight line through the human's last heights, corrected by {settings.units} "
             "gated recurrent units that remember the lifts of a session, trained by gradients "

@@ -15,11 +15,9 @@ from colift.agents.tasks.touch.touch_law import (
     TouchNetwork,
     touch_at_rest,
 )
-from colift.base.errors import InputError
 from colift.benchmark.episode.scenario import Scenario
-from colift.benchmark.suites.catalogue import make_scenario, make_task
-from colift.benchmark.tasks.touch import Touch
-from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.suites.catalogue import make_scenario
+from colift.benchmark.training.apg_settings import ApgSettings, task_by_rules
 from colift.benchmark.training.lesson import BatchDraw, Weights, first_network
 from colift.benchmark.training.pool import draw_arms
 from colift.benchmark.training.validation import LEARNING_SEEDS, VALIDATION_SEEDS, learning_seeds
@@ -45,9 +43,7 @@ class TouchLesson:
     package: ModuleType = submission
 
     def __init__(self, task: str, *, alone: bool = False) -> None:
-        made = make_task(task)
-        if not isinstance(made, Touch):
-            raise InputError(f"the task {task!r} is not stated by rules, so that it has no twin")
+        made = task_by_rules(task)
         self.task, self.alone, self.twin = task, alone, TaskTwin(made, made.person)
 
     def first(self, settings: ApgSettings, seed: int) -> Any:

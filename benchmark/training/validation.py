@@ -25,18 +25,22 @@ VALIDATION_SEEDS: Final = TRAINING_SEEDS[90_000:90_040]
 """Seeds of the people and lifts of a curve: ten of each behaviour."""
 
 
+FEWEST: Final = 2
+"""Fewest lifts, or sessions, to learn from."""
+
+
 def learning_seeds(count: int, first: int = LEARNING_SEEDS[0]) -> range:
     """Return the seeds of ``count`` lifts to learn from.
 
     Raises
     ------
     InputError
-        If there are fewer than 2, or a seed is not for learning.
+        If there are fewer than :data:`FEWEST`, or a seed is not for learning.
     """
     low, high = LEARNING_SEEDS[0], LEARNING_SEEDS[-1]
-    if not (count >= 2 and low <= first and first + count - 1 <= high):
+    if not (count >= FEWEST and low <= first and first + count - 1 <= high):
         raise InputError(
-            f"learning needs at least 2 lifts, with seeds {low} to {high}; got {count} from "
+            f"learning needs at least {FEWEST} lifts, with seeds {low} to {high}; got {count} from "
             f"seed {first}"
         )
     return range(first, first + count)

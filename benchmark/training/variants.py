@@ -33,12 +33,13 @@ VARIANTS: Final[Mapping[str, Variant]] = {
 """The networks; all have the same inputs, of which those that are not told are 0."""
 
 
-def budget(updates: int = UPDATES) -> ApgSettings:
-    """Return the settings of each training, with so many updates.
+def budget(updates: int | None = None) -> ApgSettings:
+    """Return the settings of each training, with so many updates; None is :data:`UPDATES`.
 
     Raises
     ------
     InputError
         If there is no update.
     """
-    return ApgSettings(updates=updates, lifts=6000, batch=128, units=32)
+    many = UPDATES if updates is None else updates
+    return ApgSettings(updates=many, lifts=6000, batch=128, units=32)

@@ -51,7 +51,7 @@ def require_jax(device: str | None = None) -> None:
         jax.config.update("jax_compilation_cache_dir", str(_cache()))
     try:
         found = jax.default_backend()
-    except RuntimeError as error:
+    except (RuntimeError, AssertionError) as error:  # The latter, if no GPU is visible.
         raise InputError(
             f"there is no {device or 'device'} for JAX here; for a GPU of NVIDIA: "
             f"{how_to_install('cuda')}"

@@ -22,8 +22,7 @@ from colift.agents.submissions.network.policy import (
     scales,
     sensed,
 )
-from colift.base.errors import InputError
-from colift.benchmark.training.result import usable, write_network
+from colift.benchmark.training.result import check_place, usable, write_network
 from colift.benchmark.twin_environment.environment import ROBOT, State, TwinEnv
 from colift.benchmark.twin_environment.spaces import Box
 
@@ -104,15 +103,26 @@ class TrainingView:
         past, inputs = sensed(past, view, jnp)
         return inputs / self._scales, Viewed(inner, past, line(inputs))
 
+    @staticmethod
+    def check_folder(folder: Path | str) -> None:
+        """Refuse a folder to which :meth:`write` could not write, before anything is trained.
+
+        Raises
+        ------
+        InputError
+            If it is not a new or empty folder, or cannot be written.
+        """
+        check_place(Path(folder))
+
     def write(
-        self, folder: Path, weights: Mapping[str, Any], *, name: str, trained_on: str
+        self, folder: Path | str, weights: Mapping[str, Any], *, name: str, trained_on: str
     ) -> Path:
         """Write a trained network as a submission, and return its folder.
 
         Parameters
         ----------
         folder
-            A new or empty folder.
+            A new or empty folder; :meth:`check_folder` tells before a training.
         weights
             ``w0``, ``b0``, ``w1``, ``b1`` and so on, of shapes (outputs, inputs) and (outputs,):
             tanh units, the last with one output; its tanh is the action. ``linear`` (inputs,), a
@@ -123,10 +133,9 @@ class TrainingView:
         Raises
         ------
         InputError
-            If the weights do not fit together, or the folder cannot be written.
+            If the weights do not fit together, or as :meth:`check_folder`.
         """
-        if folder.exists() and any(folder.iterdir()):
-            raise InputError(f"{folder} is not empty: name a new folder")
+        self.check_folder(folder)
         own = {} if not self.more.size else {"more": self.more, "reach": np.array([self.reach])}
         linear = {"linear": np.zeros(len(self._scales))}
         whole = {**linear, **{key: np.asarray(weights[key]) for key in weights}, **own}
@@ -137,4 +146,4 @@ class TrainingView:
             "network.",
             "trained_on": trained_on,
         }
-        return write_network(folder, whole, about)
+        return write_network(Path(folder), whole, about)

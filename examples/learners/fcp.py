@@ -15,6 +15,7 @@ from pathlib import Path
 import colift.twin
 import jax
 import jax.numpy as jnp
+from colift.base.errors import InputError
 from mappo import (
     ENVS,
     LENGTH,
@@ -27,6 +28,7 @@ from mappo import (
     mean_score,
     output,
     perceptron,
+    updates_of,
     value,
 )
 
@@ -110,9 +112,11 @@ def main():
     arguments.add_argument("--out", type=Path, required=True, help="folder of the submission")
     given = arguments.parse_args()
 
-    made = colift.twin.make(given.task, agents="both", seed=given.seed)
-    view = colift.twin.TrainingView(made)
-    updates = max(round(given.steps / ENVS / LENGTH), 1)
+    if given.pairs < 1:
+        raise InputError(f"--pairs must be at least 1, got {given.pairs}")
+    updates = updates_of(given.steps)
+    colift.twin.TrainingView.check_folder(given.out)
+    view = colift.twin.TrainingView(colift.twin.make(given.task, agents="both", seed=given.seed))
     begin = time.perf_counter()
     first, learn = jax.random.split(jax.random.key(given.seed))
     people = population(view, given.pairs, updates, first)
@@ -126,4 +130,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

@@ -11,6 +11,7 @@ score, whom it has not met::
 """
 
 import argparse
+import math
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -19,6 +20,7 @@ import colift.twin
 import jax
 import jax.numpy as jnp
 import optax
+from colift.base.errors import InputError
 
 ENVS, LENGTH = 512, 64  # Lifts at a time, and steps of each between two updates.
 EPOCHS, PARTS = 4, 8  # Passes over what was collected, and parts of each pass.
@@ -68,6 +70,14 @@ def log_chance(learner, seen, action):
     deviation = (action - jnp.tanh(output(learner["actor"], seen))) / jnp.exp(learner["spread"])
     each = -0.5 * deviation**2 - learner["spread"] - 0.5 * jnp.log(2 * jnp.pi)
     return each.sum(axis=-1)
+
+
+def updates_of(steps):
+    """Return the number of updates for a number of control steps."""
+    least = ENVS * LENGTH  # One update.
+    if not least <= steps < math.inf:
+        raise InputError(f"--steps must be finite, and {least} or more; got {steps:g}")
+    return round(steps / least)
 
 
 def make_update(env, updates, central):
@@ -193,9 +203,9 @@ def main():
     arguments.add_argument("--out", type=Path, required=True, help="folder of the submission")
     given = arguments.parse_args()
 
-    made = colift.twin.make(given.task, agents="both", seed=given.seed)
-    view = colift.twin.TrainingView(made)
-    updates = max(round(given.steps / ENVS / LENGTH), 1)
+    updates = updates_of(given.steps)
+    colift.twin.TrainingView.check_folder(given.out)
+    view = colift.twin.TrainingView(colift.twin.make(given.task, agents="both", seed=given.seed))
     start = time.perf_counter()
     begin, update = make_update(view, updates, given.critic == "all")
     first, learn = jax.random.split(jax.random.key(given.seed))
@@ -214,4 +224,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

@@ -23,6 +23,7 @@ import minari
 import numpy as np
 import optax
 from colift.agents.submissions.network.policy import CORRECTION, Senses, line, scales
+from colift.base.errors import InputError
 
 STEPS = 20  # Steps of the human's motion among the inputs.
 UNITS = 64  # Tanh units of each of two layers.
@@ -150,6 +151,9 @@ def main():
     arguments.add_argument("--out", type=Path, required=True, help="folder of the submission")
     given = arguments.parse_args()
 
+    if given.updates < 1:
+        raise InputError(f"--updates must be at least 1, got {given.updates}")
+    colift.twin.TrainingView.check_folder(given.out)
     data = read(given.data)
     view = colift.twin.TrainingView(colift.twin.make("level", lifts=1), STEPS)
     begin = time.perf_counter()
@@ -162,4 +166,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

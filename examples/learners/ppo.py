@@ -8,6 +8,7 @@ and updates are one ``jax.lax.scan``. It needs the extra ``train``::
 """
 
 import argparse
+import math
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -16,6 +17,7 @@ import colift.twin
 import jax
 import jax.numpy as jnp
 import optax
+from colift.base.errors import InputError
 
 ENVS = 512  # Lifts at a time.
 LENGTH = 64  # Steps of each between two updates.
@@ -153,8 +155,12 @@ def main():
     arguments.add_argument("--out", type=Path, required=True, help="folder of the submission")
     given = arguments.parse_args()
 
+    least = ENVS * LENGTH  # One update.
+    if not least <= given.steps < math.inf:
+        raise InputError(f"--steps must be finite, and {least} or more; got {given.steps:g}")
+    colift.twin.TrainingView.check_folder(given.out)
+    updates = round(given.steps / least)
     view = colift.twin.TrainingView(colift.twin.make(given.task, seed=given.seed))
-    updates = max(round(given.steps / ENVS / LENGTH), 1)
     begin = time.perf_counter()
     train = make_train(colift.twin.Single(view), updates)
     actor, scores = jax.block_until_ready(train(jax.random.key(given.seed)))
@@ -167,4 +173,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

@@ -8,6 +8,7 @@ a temperature that keeps the entropy of the actions. It needs the extra ``train`
 """
 
 import argparse
+import math
 import time
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ import colift.twin
 import jax
 import jax.numpy as jnp
 import optax
+from colift.base.errors import InputError
 
 ENVS = 128  # Lifts at a time.
 KEPT = 2048  # Steps of each that are kept to learn from: 260,000 in all.
@@ -163,8 +165,12 @@ def main():
     arguments.add_argument("--out", type=Path, required=True, help="folder of the submission")
     given = arguments.parse_args()
 
+    least = ENVS * (FIRST + 1)  # One step of all lifts to learn from.
+    if not least <= given.steps < math.inf:
+        raise InputError(f"--steps must be finite, and {least} or more; got {given.steps:g}")
+    colift.twin.TrainingView.check_folder(given.out)
+    rounds = round(given.steps / ENVS)
     view = colift.twin.TrainingView(colift.twin.make(given.task, seed=given.seed))
-    rounds = max(round(given.steps / ENVS), 10)
     begin = time.perf_counter()
     train = make_train(colift.twin.Single(view), rounds)
     actor, (scores, ended) = jax.block_until_ready(train(jax.random.key(given.seed)))
@@ -180,4 +186,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except InputError as error:
+        raise SystemExit(f"error: {error}") from None

@@ -78,8 +78,10 @@ def made(learner, task, seed, steps, folder):
     policy, result = learner, {"learner": learner, "task": task, "seed": seed}
     if learner not in ALONE:
         order, policy = command(learner, task, seed, steps, place)
-        printed = subprocess.run(order, env=env, check=True, capture_output=True, text=True).stdout
-        learned = curve(printed, policy.parent, seed)
+        trained = subprocess.run(order, env=env, capture_output=True, text=True)
+        if trained.returncode:
+            raise SystemExit(trained.stderr)
+        learned = curve(trained.stdout, policy.parent, seed)
         for name, values in zip(CURVE, learned, strict=True):
             result[name] = [round(float(each), 3) for each in values]
     order = [sys.executable, "-m", "colift", "run", str(policy), "--suite", TASKS[task], "--json"]
@@ -146,8 +148,12 @@ def draw(cells, learners, tasks):
         for alone in of(cells, *ALONE, task):
             for each in axes[:, column]:
                 each.axhline(alone["rmse_mm"], color="gray", linestyle=":", label=alone["learner"])
-        axes[0, column].set(title=TASKS[task], xlabel="million steps", ylim=(0.0, None))
-        axes[1, column].set(xlabel="seconds")
+        limits = {"xscale": "log", "ylim": (0.0, None)}
+        axes[0, column].set(title=TASKS[task], xlabel="million steps", **limits)
+        axes[1, column].set(xlabel="seconds", **limits)
+        for each in axes[:, column]:
+            each.xaxis.set_major_formatter("{x:g}")
+            each.xaxis.set_minor_formatter("")
     for each in axes[:, 0]:
         each.set_ylabel("error while learning [mm]")
     figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncols=9)

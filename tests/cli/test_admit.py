@@ -3,6 +3,10 @@
 import json
 
 import pytest
+import typer
+from colift.benchmark.admission.assessment import Admission
+from colift.benchmark.admission.criteria import COORDINATION, Criterion
+from colift.cli.admit import report
 
 
 @pytest.mark.parametrize(
@@ -15,17 +19,29 @@ import pytest
         ),
         (["nothing"], "unknown suite 'nothing'"),
         (["ball-v1", "--people", "2"], "admission needs 3 people or more, got 2"),
-        (["ball-v1", "--tune", "--people", "3"], "--tune takes neither --pairs nor --people"),
+        (["ball-v1", "--tune", "--people", "3"], "--tune takes none of --pairs, --people, --upd"),
+        (["ball-v1", "--tune", "--updates", "0"], "--tune takes none of --pairs, --people, --upd"),
+        (
+            ["ball-v1", "--tune", "--out", "new"],
+            "--tune takes none of --pairs, --people, --upd",
+        ),
+        (["ball-v1", "--jobs", "0"], "jobs must be at least 1, got 0"),
+        (["ball-v1", "--updates", "5"], "--updates and --out are for suites with conditions or se"),
+        (["session-v1", "--updates", "0", "--out", "new"], "--updates must be at least 1, got 0"),
+        (["robust-v1", "--updates", "0", "--out", "new"], "--updates must be at least 1, got 0"),
+        (["session-v1", "--out", "/dev/null/x"], "--out: /dev/null/x cannot be a folder: Not a d"),
+        (["robust-v1", "--out", "."], "--out must be a new folder, . exists"),
         (["ball-v1", "--policy", "ball_calm"], "--policy is for --tune"),
         (["ball-v1", "--tune", "--policy", "copy"], "'copy' cannot be tuned; can be: ball_adm"),
         (["standard-v1", "--tune"], "'level' has no policies of its own"),
     ],
 )
-def test_what_it_cannot_do_is_refused_in_one_line(colift, arguments, words):
+def test_what_it_cannot_do_is_refused_in_one_line(colift, tmp_path, arguments, words):
     done = colift("admit", *arguments)
     assert done.returncode == 2
     assert words in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr
+    assert [*tmp_path.iterdir()] == []
 
 
 @pytest.mark.slow
@@ -43,3 +59,15 @@ def test_the_control_stands_beside_a_suite_and_fails(colift):
     for each in found["criteria"]:
         if each["passed"] is not None:
             assert each["ci95"][0] <= each["figure"] <= each["ci95"][1]
+
+
+def test_what_a_criterion_hangs_on_is_printed(capsys):
+    criterion = Criterion(
+        letter="a", claim=COORDINATION, what="", bar="", detail="", passed=True, hangs_on=("x", "y")
+    )
+    found = Admission(suite="some", digest="", means={}, criteria=(criterion,), control=None)
+    with pytest.raises(typer.Exit):
+        report(found, as_json=False)
+    printed = capsys.readouterr().out
+    assert "a is undecided: it fails without any one of x and y\n" in printed
+    assert f"{COORDINATION}: NOT SHOWN" in printed

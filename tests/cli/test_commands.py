@@ -124,6 +124,18 @@ def test_list_names_everything(colift):
         (["render", "copy", "--out", "a.gif", "--camera", "left"], "unknown camera 'left'"),
         (["render", "copy", "--out", "a.gif", "--speed", "99"], "speed must be within"),
         (["render", "copy", "--out", "a.html", "--camera", "top"], "not for a.html"),
+        (
+            ["render", "copy", "--out", "a.png", "--speed", "2"],
+            "--speed is for .gif, .webp, .mp4, not for a.png",
+        ),
+        (
+            ["render", "copy", "--out", "a.mp4", "--plays", "3"],
+            "--plays is for .gif, .webp, not for a.mp4",
+        ),
+        (
+            ["render", "copy", "--out", "a.svg", "--beside", "blend"],
+            "--beside is for .gif, .webp, .mp4, .png, not for a.svg",
+        ),
         (["render", "copy", "--out", "a.gif", "--beside", "nosuch"], "'nosuch'"),
         (["render", "copy", "--out", "a.gif", "--beside", "ball_calm"], "for the task 'ball'"),
         (["render", "copy", "--behaviour", "smoth", "--out", "lift.png"], "smooth"),

@@ -44,7 +44,7 @@ def test_a_changed_bundle_is_refused_and_nothing_is_left(colift, bundle, tmp_pat
     before = sorted(tmp_path.iterdir())
     done = colift("export", "bundle", "--out", "set")
     assert done.returncode == 2
-    assert done.stderr.startswith("error: traces.npz: ")
+    assert done.stderr.startswith("error: bundle: traces.npz: ")
     assert done.stderr.count("\n") == 1
     assert sorted(tmp_path.iterdir()) == before
 
@@ -55,7 +55,8 @@ def test_a_changed_bundle_is_refused_and_nothing_is_left(colift, bundle, tmp_pat
         ([], "name either a result bundle, or a fixed set by --set"),
         (["x", "--set", "follow", "--out", "y"], "name either a result bundle, or a fixed set"),
         (["x"], "--out DIR is missing"),
-        (["/nowhere", "--out", "y"], "/nowhere: not a bundle's folder"),
+        (["/nowhere", "--out", "y"], "/nowhere: no such folder; name that of a result bundle"),
+        ([".", "--out", "y"], ". has no results.json: name the folder of a result bundle"),
         (["x", "--out", "y", "--to", "rlds"], "--to must be minari or lerobot, got 'rlds'"),
         (["x", "--out", "y", "--view", "all"], "--view must be robot or both, got 'all'"),
         (["x", "--out", "y", "--lifts", "3"], "--lifts and --recordings need --set"),

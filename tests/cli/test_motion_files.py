@@ -82,6 +82,41 @@ def test_without_a_file_to_write_it_shows_what_is_there(colift, session, tmp_pat
     assert [lift["trial"] for lift in take["lifts"]] == ["S1_box-1", "S1_box-2"]
 
 
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (("--out", "S1_box.csv"), "--out: S1_box.csv exists; name a new file"),
+        (("--out", "lifts.png"), "--out: cannot write lifts.png: its suffix must be .csv"),
+        (
+            ("--out", "keep.csv"),
+            "--picture: keep.png exists; name a new file; without it, the picture is beside the",
+        ),
+        (("--picture", "keep.png"), "--picture: keep.png exists; name a new file"),
+        (
+            ("--out", "same.csv", "--picture", "same.csv"),
+            "--picture: cannot write same.csv: its suffix must be .png",
+        ),
+        (("--picture", "lifts.pdf"), "cannot write lifts.pdf: its suffix must be .png"),
+    ],
+)
+def test_no_file_is_replaced_or_has_two_contents(colift, session, tmp_path, options, told):
+    (tmp_path / "keep.png").write_bytes(b"a picture")
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    done = colift("recordings", session[0].name, "--marker", "RFIN", *options)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert told in done.stderr
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+def test_a_picture_alone_is_told_as_written(colift, session, tmp_path):
+    done = colift(
+        "recordings", session[0].name, "--marker", "RFIN", "--picture", "only.PNG", COLUMNS="200"
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith("written: only.PNG\n--out lifts.csv writes the lifts.\n")
+    assert (tmp_path / "only.PNG").read_bytes().startswith(b"\x89PNG")
+
+
 def test_licence_and_citation_go_with_the_lifts(colift, session, tmp_path):
     out, second = tmp_path / "lifts.csv", tmp_path / "again.csv"
     done = colift(

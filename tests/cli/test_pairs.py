@@ -94,6 +94,17 @@ def test_wrong_usage_is_refused(colift, file, arguments, told):
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.parametrize("name", ["pairs.csv", "pairs.pdf"])
+def test_neither_the_recordings_nor_another_file_are_replaced(colift, file, name):
+    there = file.rename(file.with_name(name))
+    content = there.read_bytes()
+    done = colift("pairs", name, "--out", ".")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert f"error: --out: {name} exists; name a new folder" in done.stderr
+    assert [each.name for each in there.parent.iterdir()] == [name]
+    assert there.read_bytes() == content
+
+
 def test_recordings_are_played_as_they_were_and_told_so(colift, file, tmp_path):
     played = ("run", "copy", "--recordings", file, "--as-recorded")
     done = colift(*played, "--out", tmp_path / "bundle", COLUMNS="200")

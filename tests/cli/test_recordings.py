@@ -76,6 +76,13 @@ def test_every_command_refuses_an_artefact_by_line(colift, file, command):
     assert "Traceback" not in done.stderr
 
 
+def test_a_session_of_nobody_who_is_named_is_told(colift, file):
+    done = colift("run", "copy", "--recordings", file, "--session", "--jobs", "1")
+    assert done.returncode == 0
+    told = "lifts.csv: no person is named, so all lifts are taken as one person's"
+    assert told in done.stderr.splitlines()
+
+
 def test_a_file_of_copies_is_refused(colift, file):
     file.write_text(HEADER + "".join(rows(f"copy{k}", 0.3) for k in range(8)))
     done = colift("validity", file)

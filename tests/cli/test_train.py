@@ -4,6 +4,9 @@ import json
 
 import pytest
 from colift.benchmark.training import validation
+from colift.benchmark.training.apg_settings import ApgSettings
+from colift.benchmark.training.cem import CemSettings
+from colift.cli.train import next_commands
 
 TINY = ("--generations", "1", "--population", "3", "--elite", "1", "--lifts", "1", "--jobs", "1")
 
@@ -34,6 +37,19 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("settings", "suite"),
+    [
+        (CemSettings(), ""),
+        (ApgSettings(), ""),
+        (ApgSettings(task="ball"), " --suite ball-v1"),
+        (ApgSettings(session="forget"), " --suite session-v1"),
+    ],
+)
+def test_what_comes_next_is_on_the_suite_that_was_trained_for(settings, suite):
+    assert next_commands("t", settings) == f"colift run t{suite}, or colift check t{suite}"
+
+
+@pytest.mark.parametrize(
     ("arguments", "told"),
     [
         (["train"], "a command is missing; 'colift train --help' lists them"),
@@ -48,12 +64,18 @@ def test_a_folder_per_seed_a_table_and_policies_that_run(colift, tmp_path):
             "must be cpu or gpu, got 'tpu'",
         ),
         (["train", "apg", "--out", "x", "--task", "tea"], "unknown task 'tea'; known: "),
+        (["train", "apg", "--out", "x", "--lifts", "0"], "--lifts must be 2 to 90000, got 0"),
+        (
+            ["train", "apg", "--out", "x", "--session", "sometimes"],
+            "--session must be remember or forget, got 'sometimes'",
+        ),
         (["train", "cem", "--out", "/dev/null"], "cannot use /dev/null"),
         (["train", "cem", "--out", "x", "--jobs", "0"], "jobs must be at least 1, got 0"),
     ],
 )
-def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told):
+def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, tmp_path, arguments, told):
     done = colift(*arguments)
     assert done.returncode == 2
     assert told in done.stdout + done.stderr
     assert "Traceback" not in done.stderr
+    assert not (tmp_path / "x").exists()

@@ -20,10 +20,17 @@ from colift.benchmark.twin.task_twin import TaskTwin
 
 from . import hinting
 
+WITHOUT_A_SUITE, *_ = hinting.ENTRY_POINTS.partition("[colift.suites]")
+
+
+@pytest.fixture
+def entry_points():
+    return hinting.ENTRY_POINTS
+
 
 @pytest.fixture(autouse=True)
-def installed(install):
-    install(hinting.__file__, hinting.ENTRY_POINTS)
+def installed(install, entry_points):
+    install(hinting.__file__, entry_points)
 
 
 def lifts():
@@ -66,3 +73,20 @@ def test_a_network_learns_it_in_the_twin():
     lesson = lesson_of("hint")
     errors = lesson.errors(last.learner.network, lesson.draw(settings))
     assert np.isfinite(errors).all()
+
+
+@pytest.mark.parametrize(
+    ("entry_points", "following"),
+    [
+        (
+            hinting.ENTRY_POINTS,
+            "colift run t/seed-0 --suite hint-v1, or colift check t/seed-0 --suite hint-v1",
+        ),
+        (WITHOUT_A_SUITE, "colift render t/seed-0 --task hint --out lift.png"),
+    ],
+)
+def test_the_command_says_what_plays_its_policy(colift, following):
+    tiny = ("--updates", "1", "--lifts", "2", "--batch", "2", "--units", "2")
+    done = colift("train", "apg", "--task", "hint", "--out", "t", *tiny)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.endswith(f"\nNext: {following}\n")

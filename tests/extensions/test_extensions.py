@@ -69,6 +69,14 @@ def test_a_bundle_without_its_package_has_a_hint(colift, tmp_path, monkeypatch):
     assert "or the package that registers it is not installed" in done.stderr
 
 
+def test_training_in_the_twin_is_refused_before_anything_is_written(colift, tmp_path):
+    done = colift("train", "apg", "--task", "slope", "--out", "t")
+    assert done.returncode == 2
+    words = "the task 'slope' is not stated by rules, so that it has no twin"
+    assert done.stderr == f"error: {words}\n"
+    assert not (tmp_path / "t").exists()
+
+
 def test_policies_are_compared_by_its_metric(colift):
     done = colift("compare", "copy", "hold", "--suite", "slope-v1", COLUMNS="140")
     assert done.returncode == 0, done.stderr

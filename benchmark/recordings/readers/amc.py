@@ -4,7 +4,7 @@ A bone turns by ``C M C^-1`` against its parent: ``C`` is its ``axis``, fixed, a
 of freedom in a frame. It ends at ``p = p_parent + R length direction``.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -17,6 +17,9 @@ from colift.benchmark.recordings.texts import text_in
 from numpy.typing import NDArray
 
 ROOT: Final = "root"
+
+SHIFTS: Final = ("tx", "ty", "tz")
+"""Degrees of freedom of the root's place."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,12 +54,17 @@ def read(path: Path) -> tuple[Motion, ...]:
         If there is no skeleton beside it, or either file is not as the format has it.
     """
     source = _skeleton_file(path)
+    described, moved = _lines(source), _lines(path)
     try:
-        skeleton = _skeleton(_lines(source))
-    except (StopIteration, ValueError, IndexError, KeyError):
-        raise InputError(f"{source}: this skeleton (ASF) is not whole: get it again") from None
+        skeleton = _skeleton(described)
+    except (StopIteration, ValueError, IndexError, KeyError) as error:
+        reason = f" ({error})" if str(error) else ""
+        raise InputError(
+            f"{source}: this skeleton (ASF) is not whole{reason}: get it again"
+        ) from None
     try:
-        frames, places = _frames(_lines(path), skeleton.bones)
+        frames, places = _frames(moved, skeleton.bones)
+        ends = _ends(skeleton, frames)
     except (ValueError, IndexError, KeyError) as error:
         raise InputError(
             f"{path}: this motion (AMC) does not fit the skeleton {source.name} ({error}): put its "
@@ -67,7 +75,7 @@ def read(path: Path) -> tuple[Motion, ...]:
             kind="an AMC file",
             names=(ROOT, *skeleton.parents),
             times=np.arange(len(places), dtype=float),
-            positions=skeleton.metre * _ends(skeleton, frames),
+            positions=skeleton.metre * ends,
             places=np.array(places),
             unit="in",
             metre=skeleton.metre,
@@ -119,7 +127,27 @@ def _skeleton(lines: Sequence[tuple[int, list[str]]]) -> Skeleton:
             bones[name] = bone
         elif section == ":hierarchy" and key not in ("begin", "end"):
             parents |= dict.fromkeys(words[1:], words[0])
-    return Skeleton(bones=bones, parents=parents, metre=LENGTHS["in"] / scale)
+    if not 0.0 < scale < np.inf:
+        raise ValueError(f"its unit of length is {scale:g}, must be positive")
+    missing = [axis for axis in SHIFTS if axis not in bones[ROOT].freedoms]
+    if missing:
+        raise ValueError(f"its root has no {missing[0]}")
+    return Skeleton(bones=bones, parents=_in_order(parents, bones), metre=LENGTHS["in"] / scale)
+
+
+def _in_order(parents: Mapping[str, str], bones: Container[str]) -> dict[str, str]:
+    """Return the parents of bones with each bone after its parent; else in their order."""
+    ordered: dict[str, str] = {}
+    waiting = [*parents]
+    while waiting:
+        for name in waiting:
+            if name in bones and name != ROOT and parents[name] in (ROOT, *ordered):
+                ordered[name] = parents[name]
+        left = [name for name in waiting if name not in ordered]
+        if len(left) == len(waiting):
+            raise ValueError(f"its bone {left[0]!r:.40} is not described, or hangs on no other")
+        waiting = left
+    return ordered
 
 
 def _bone(rest: Iterator[list[str]], degrees: bool) -> tuple[str, Bone]:
@@ -171,7 +199,7 @@ def _ends(skeleton: Skeleton, frames: Mapping[str, NDArray[np.float64]]) -> NDAr
     """Return the ends of the root and of the bones, shape (frames, bones, 3), in their unit."""
     root = frames[ROOT]
     freedoms = skeleton.bones[ROOT].freedoms
-    shift = np.stack([root[:, freedoms.index(f"t{axis}")] for axis in "xyz"], axis=1)
+    shift = np.stack([root[:, freedoms.index(axis)] for axis in SHIFTS], axis=1)
     turns, ends = {ROOT: _turn(freedoms, root)}, {ROOT: shift}
     for name, parent in skeleton.parents.items():
         bone = skeleton.bones[name]

@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 from colift.base.errors import InputError
 from colift.benchmark.recordings.motion import AXES, Motion
-from colift.benchmark.recordings.texts import is_number, numbers, split_lines, text_in
+from colift.benchmark.recordings.texts import numbers, split_lines, text_in
 from numpy.typing import NDArray
 
 CHANNEL: Final = re.compile(r"[xyz](position|rotation)")
@@ -55,10 +55,15 @@ def read(path: Path) -> tuple[Motion, ...]:
     lines = split_lines(after, " ", skipped)
     frames = next((line for line in lines if line.at(0).lower() == "frames:"), None)
     timed = next((line for line in lines if line.cells[:2] in (("Frame", "Time:"),)), None)
-    if not mark or frames is None or timed is None or not is_number(frames.at(1)):
+    if not mark or frames is None or timed is None:
         raise InputError(f"{where}: this BVH file has no motion, with 'Frames:' and 'Frame Time:'")
+    if not frames.at(1).isdecimal():
+        raise InputError(
+            f"{where}, line {frames.number}: 'Frames:' is {frames.at(1)!r:.40}, must be a whole "
+            "number: correct it, or export the file again"
+        )
     data = [line for line in lines if line.number > timed.number]
-    count = int(float(frames.at(1)))
+    count = int(frames.at(1))
     width = sum(len(joint.channels) for joint in joints)
     if len(data) < count or any(len(line.cells) != width for line in data[:count]):
         raise InputError(

@@ -53,7 +53,7 @@ def read(path: Path) -> tuple[Motion, ...]:
         )
     rate = float(content["rate"])
     told = _first(content, "UNITS")
-    unit, metre = stated_unit(told or UNIT, str(path))
+    unit, metre = stated_unit(told or UNIT)
     up = _up(_first(content, "Y_SCREEN"))
     return (
         Motion(

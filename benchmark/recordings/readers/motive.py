@@ -12,6 +12,7 @@ from colift.benchmark.recordings.texts import (
     delimiter_of,
     is_number,
     numbers,
+    rate_in,
     split_lines,
     text_in,
 )
@@ -50,12 +51,11 @@ def read(path: Path) -> tuple[Motion, ...]:
             "positions"
         )
     decimal = decimal_sign(data, delimiter)
-    unit, metre = stated_unit(values.get("length units", "Meters"), where)
+    unit, metre = stated_unit(values.get("length units") or "Meters")
     timed = next(
         (i for i, cell in enumerate(axes.cells) if cell.lower().startswith("time (")), None
     )
-    rate = values.get("export frame rate") or values.get("capture frame rate") or ""
-    hertz = float(rate) if is_number(rate) else 0.0
+    hertz = rate_in(values.get("export frame rate") or values.get("capture frame rate") or "")
     frames = numbers(data, [0], ["Frame"], decimal, where)[:, 0]
     if timed is not None:
         times = numbers(data, [timed], ["Time"], decimal, where)[:, 0]

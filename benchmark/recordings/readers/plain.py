@@ -13,7 +13,7 @@ from colift.agents.humans.recordings import COLUMNS
 from colift.base.errors import InputError
 from colift.benchmark.recordings.clocks import clock_of
 from colift.benchmark.recordings.columns import PEOPLE, POINTS, TRIALS, places_of, plain_name
-from colift.benchmark.recordings.headers import Table, table_of
+from colift.benchmark.recordings.headers import Table, check_single, table_of
 from colift.benchmark.recordings.motion import AXES, Motion, Series
 from colift.benchmark.recordings.points import common_unit, scattered
 from colift.benchmark.recordings.texts import is_number, text_in
@@ -35,7 +35,7 @@ def read(path: Path) -> tuple[Motion, ...]:
     """
     where = str(path)
     table = table_of(text_in(path), where)
-    roles = _roles(table)
+    roles = _roles(table, where)
     titles = ["" if i in roles.values() else title for i, title in enumerate(table.titles)]
     places = places_of(titles, table.units, where)
     if not places:
@@ -73,8 +73,8 @@ def read(path: Path) -> tuple[Motion, ...]:
     return tuple(made)
 
 
-def _roles(table: Table) -> dict[str, int]:
-    """Return the columns of trial, point and person, of those that there are."""
+def _roles(table: Table, where: str) -> dict[str, int]:
+    """Return the columns of trial, point and person, of those that there are, each there once."""
     found: dict[str, int] = {}
     for i, title in enumerate(table.titles):
         name = plain_name(title)
@@ -83,6 +83,8 @@ def _roles(table: Table) -> dict[str, int]:
             continue  # Such as a force at the hand.
         if role is not None:
             found.setdefault(role, i)
+    for i in found.values():
+        check_single(table, i, where)
     return found
 
 

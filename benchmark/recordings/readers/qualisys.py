@@ -18,6 +18,7 @@ from colift.benchmark.recordings.texts import (
     delimiter_of,
     is_number,
     numbers,
+    rate_in,
     split_lines,
     text_in,
 )
@@ -102,6 +103,5 @@ def _times(
     frames = np.arange(len(data), dtype=float)
     if before:
         frames = numbers(data, [0], ["Frame"], decimal, where)[:, 0]
-    rate = (keywords.get("FREQUENCY") or ("",))[0].replace(",", ".")
-    hertz = float(rate) if is_number(rate) else 0.0
+    hertz = rate_in((keywords.get("FREQUENCY") or ("",))[0])
     return ((frames - frames[0]) / hertz, True) if hertz > 0.0 else (frames, False)

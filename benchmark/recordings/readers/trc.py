@@ -14,6 +14,7 @@ from colift.benchmark.recordings.texts import (
     delimiter_of,
     is_number,
     numbers,
+    rate_in,
     split_lines,
     text_in,
 )
@@ -47,9 +48,8 @@ def read(path: Path) -> tuple[Motion, ...]:
     if not names or not data:
         raise InputError(f"{where}: this TRC file has no markers, or no frames")
     decimal = decimal_sign(data, delimiter)
-    unit, metre = stated_unit(settings.get("units", "mm"), where)
-    rate = settings.get("datarate", "").replace(",", ".")
-    hertz = float(rate) if is_number(rate) else 0.0
+    unit, metre = stated_unit(settings.get("units") or "mm")
+    hertz = rate_in(settings.get("datarate", ""))
     times = numbers(data, [1], ["Time"], decimal, where)[:, 0]
     clocked = bool(np.isfinite(times).all() and np.ptp(times) > 0.0)
     if not clocked:

@@ -14,6 +14,7 @@ from colift.benchmark.recordings.texts import (
     delimiter_of,
     is_number,
     numbers,
+    rate_in,
     split_lines,
     text_in,
 )
@@ -75,9 +76,9 @@ def _section(lines: Sequence[Line], delimiter: str, where: str) -> Motion | None
         return None
     decimal = decimal_sign(data, delimiter)
     named = [_name_at(names, i) for i in firsts]
-    unit, metre = stated_unit(units.at(firsts[0]), where)
+    unit, metre = stated_unit(units.at(firsts[0]))
     frames = numbers(data, [0], ["Frame"], decimal, where)[:, 0]
-    hertz = float(rate.replace(",", ".")) if rate else 0.0
+    hertz = rate_in(rate)
     return Motion(
         kind="a CSV file of Vicon Nexus",
         names=tuple(named),

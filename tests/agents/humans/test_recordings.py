@@ -100,6 +100,8 @@ def test_variants_of_csv_are_accepted(load, text):
         ("% recorded, at 100 Hz\n" + ONE, r"is this a comment\?"),
         ("trial,t_s,z_m,z_m\na,0,0,1\n", r"the column z_m is there 2 times, must be there once"),
         ("t_s,t_s,trial,z_m\n0,0,a,0\n", r"the column t_s is there 2 times"),
+        ("trial,person,t_s,z_m,person\na,A,0,0,B\n", r"the column person is there 2 times"),
+        ("trial,t_s,z_m,trial\na,0,0,b\n", r"the column trial is there 2 times"),
         (ONE.replace("0.900000", "up", 1), r"lifts.csv, line 2: z_m is 'up', must be a number$"),
         ("trial,t_s,z_m\na,0,0\na,1\n", r"line 3: .* z_m is nan or empty in 1 sample, 1 s"),
         ("trial,t_s,z_m\na,inf,0\na,1,1\n", r"line 2: t_s is 'inf', must be finite"),

@@ -21,8 +21,9 @@ def played(values, names=None):
     return Played(players=names, people=people, errors=values)
 
 
-def evidence(values, *, alone=(), two_people=10.0, idle=100.0):
+def evidence(values=None, *, alone=(), two_people=10.0, idle=100.0, **more):
     """Return the evidence of policies, with a constant error of hold and of two people [mm]."""
+    values = errors(0, (3, 4, 2)) if values is None else values
     names = tuple(f"policy{i}" for i in range(len(values)))
     rest = np.ones((2, *values.shape[1:])) * np.array([idle, two_people])[:, None, None]
     rest = rest * np.exp(0.05 * np.random.default_rng(0).standard_normal(rest.shape))
@@ -34,4 +35,5 @@ def evidence(values, *, alone=(), two_people=10.0, idle=100.0):
         alone=frozenset(alone),
         idle="hold",
         two_people="two",
+        **more,
     )

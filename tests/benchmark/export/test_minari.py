@@ -147,6 +147,9 @@ def test_only_an_older_export_is_replaced_and_only_if_asked(bundle, boxes, prove
     (tmp_path / "out" / "mine.txt").touch()
     with pytest.raises(InputError, match="is there already; name a new folder, or add --force"):
         again()
+    with pytest.raises(InputError, match=r"out holds other files \(mine.txt\); name a new folder"):
+        again(replace=True)
+    (tmp_path / "out" / "mine.txt").unlink()
     again(replace=True)
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
         "README.md",

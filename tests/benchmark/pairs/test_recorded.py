@@ -59,6 +59,19 @@ def test_an_inclination_and_a_length_are_as_good_as_heights(path, tmp_path):
         assert one.mean_tilt_deg == pytest.approx(other.mean_tilt_deg, abs=0.02)
 
 
+def test_heights_and_inclinations_must_be_those_of_the_length(path):
+    both = [
+        (trial, person, (times, near, far, np.degrees(np.arcsin((near - far) / 1.5))))
+        for trial, person, (times, near, far) in lifts(difference=0.02)
+    ]
+    write(path, both, ("z_far_m", "tilt_deg"))
+    assert len(recorded_pairs(path, 1.5).lifts) == len(recorded_pairs(path).lifts) == 4
+    with pytest.raises(
+        InputError, match=r"'lift0' is of no table of --length 3: .*no table of 3 m"
+    ):
+        recorded_pairs(path, 3.0)
+
+
 def test_a_file_without_a_far_end_is_refused_with_the_columns_to_add(path):
     write(path, [(name, who, series[:2]) for name, who, series in lifts()], ())
     with pytest.raises(InputError, match=r"no trial has the other end .* z_far_m, .* or tilt_deg"):

@@ -58,8 +58,20 @@ def test_each_person_is_a_session_in_the_order_of_the_file(path):
 
 
 def test_lifts_without_a_name_are_one_persons(tmp_path):
-    suite = real_lifts(write(tmp_path / "own.csv", ["x", "y"], lambda _: ""), session=True).suite
-    assert [each.trial for each in suite.scenarios] == ["person"]
+    lifts = real_lifts(write(tmp_path / "own.csv", ["x", "y"], lambda _: ""), session=True)
+    assert [each.trial for each in lifts.suite.scenarios] == ["person"]
+    assert lifts.assumed == "no person is named, so all lifts are taken as one person's"
+
+
+def test_lifts_without_a_name_are_not_joined_with_those_of_a_person_called_person(tmp_path):
+    names = {"x1": "", "p1": "person", "x2": "", "p2": "person", "x3": ""}
+    lifts = real_lifts(write(tmp_path / "own.csv", names, names.get), session=True)
+    [scenario] = lifts.suite.scenarios
+    assert [each.name for each in scenario.human.lifts] == ["p1", "p2"]
+    reason = "its person is not named, as others are"
+    assert lifts.left_out == dict.fromkeys(("x1", "x2", "x3"), reason)
+    assert lifts.assumed == ""
+    assert Recipe.of(lifts.suite).suite().digest == lifts.suite.digest
 
 
 def test_people_with_one_lift_are_no_session(tmp_path):

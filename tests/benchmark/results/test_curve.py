@@ -85,6 +85,14 @@ def test_the_rate_is_that_of_the_logarithm():
     assert curve.learned == f"-10 % from lift to lift; {curve.whole:.1f} mm over all"
 
 
+def test_the_curve_of_one_lift_has_no_rate():
+    suite = dataclasses.replace(SUITE, seeds=(0,))
+    run = run_suite(PolicySpec(text="copy"), suite)
+    curve = session_curve(run, ScoreTable.of(run), None)
+    assert len(curve.rmse_mm) == 1
+    assert curve.learned.startswith(f"{curve.whole:.1f} mm over all")
+
+
 def test_results_tell_the_curve_and_keep_it(played):
     told = results_text(played, SUITE.metrics)
     assert "RMSE mm, lift by lift: " in told

@@ -36,6 +36,22 @@ def test_the_variation_of_the_arms_grows_to_what_was_asked_for():
         ),
         ({"unsettled": -1}, "--unsettled must be at least 0, got -1"),
         ({"encoders": -1e-4}, "--encoders must be at least 0, got -0.0001"),
+        (
+            {"task": "ball", "session": "remember"},
+            "--session has no effect on the task 'ball'",
+        ),
+        (
+            {"session": "remember", "wide": 0.1},
+            "--wide has no effect on sessions",
+        ),
+        ({"alone": True}, "--alone has no effect on the task 'level'"),
+        ({"session": "sometimes"}, "--session must be remember or forget, got 'sometimes'"),
+        ({"lifts": 1}, "--lifts must be 2 to 90000, got 1"),
+        ({"lifts": 90_001}, "--lifts must be 2 to 90000, got 90001"),
+        (
+            {"session": "forget", "lifts": 19},
+            "--lifts must be 20 to 900000 in sessions, got 19",
+        ),
         ({"updates": 0}, "--updates must be at least 1, got 0"),
         ({"batch": 5}, "--batch must be a multiple of 2, got 5"),
         ({"wide": 1.0}, r"--wide must be at least 0 and below 1, got 1\.0"),

@@ -80,8 +80,25 @@ def test_a_folder_with_something_in_it_stays_as_it_is(tmp_path):
     view = twin.TrainingView(twin.make("level", lifts=1), STEPS)
     (tmp_path / "note").write_text("mine")
     weights = network(*view.observation_space("robot").shape)
-    with pytest.raises(InputError, match="is not empty: name a new folder"):
+    with pytest.raises(InputError, match="is not empty; name a new folder"):
         view.write(tmp_path, weights, name="a", trained_on="b")
     assert [each.name for each in tmp_path.iterdir()] == ["note"]
     with pytest.raises(InputError, match="trained weights cannot be used: weights must be w0, b0"):
         view.write(tmp_path / "new", {"w0": weights["w0"]}, name="a", trained_on="b")
+    assert [each.name for each in tmp_path.iterdir()] == ["note"]
+
+
+def test_a_folder_may_be_a_text_and_is_checked_before(tmp_path):
+    view = twin.TrainingView(twin.make("level", lifts=1), STEPS)
+    weights = network(*view.observation_space("robot").shape)
+    folder = str(tmp_path / "a" / "made")
+    view.check_folder(folder)
+    assert view.write(folder, weights, name="a", trained_on="b") == tmp_path / "a" / "made"
+    for place, told in (
+        (folder, "made is not empty; name a new folder"),
+        (f"{folder}/policy.py", "policy.py is there already; name a new folder"),
+        ("/dev/null/made", "cannot write to /dev/null: File exists"),
+        (".", "cannot be replaced; name a new folder"),
+    ):
+        with pytest.raises(InputError, match=told):
+            view.check_folder(place)

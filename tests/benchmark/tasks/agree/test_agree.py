@@ -151,7 +151,7 @@ def test_two_people_who_know_less_of_each_other_lead_more_to_their_own_hurdles(m
     suite = make_suite("agree-v1")
     few = dataclasses.replace(suite, scenarios=suite.scenarios[:1], seeds=(0,))
     run = dataclasses.replace(human_human_run(few), suite=suite)
-    assert published.roles_mw(run)(None) > 0.0
+    assert published.roles_mw(run)(set()) > 0.0
 
 
 def test_a_lift_is_proved_by_its_actions():
