@@ -12,7 +12,7 @@ from colift.benchmark.statistics import FloatArray
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Evidence:
-    """The errors of a test of admission, and the parts that its players have; what else it has."""
+    """The errors of a test of admission, the parts that its players have, and other figures."""
 
     played: Played
     """Everybody: policies and references, other settings, the idle robot and two people."""

@@ -55,8 +55,6 @@ def admission_words(found: Admission) -> str:
     """Return what is behind the figures, and what a verdict hangs on."""
     lines = [f"{each.letter}: {each.detail}" for each in found.criteria]
     lines += [f"{e.letter} is undecided: {e.doubt}" for e in found.criteria if e.doubt]
-    if found.control is not None and not any(each.hangs_on for each in found.criteria):
-        lines.append("no verdict hangs on one policy, person or pair")
     if found.control is not None:
         fate = "passes, so that the test rejects nothing" if found.control.passed else "fails"
         lines.append(f"control: {found.control.suite} {fate}")

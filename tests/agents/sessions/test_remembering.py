@@ -8,11 +8,11 @@ from colift.agents.loading.policy_spec import PolicySpec
 from colift.agents.sessions.refined import Refined
 from colift.agents.sessions.refitting import RefittingParameters
 from colift.base.errors import InputError
-from colift.base.registry import remembering
+from colift.base.registry import POLICIES, REMEMBERING, entries
 from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.suites.suite import make_suite
 
-NAMES = remembering()
+NAMES = [name for name, each in entries(POLICIES).items() if each.group == REMEMBERING]
 WHOLE = make_suite("session-v1")
 SUITE = dataclasses.replace(WHOLE, name="six", scenarios=WHOLE.scenarios[::7])
 

@@ -2,24 +2,17 @@
 
 import numpy as np
 import pytest
-from colift.base.errors import InputError
 from colift.benchmark.recordings.taking import takes_of
 from colift.benchmark.recordings.wishes import Wishes
 
 from . import motion_files as files
 from .motion_files import Dialect
+from .refusals import refusal
 
 
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "take.csv"
-
-
-def refusal(path, **wishes):
-    with pytest.raises(InputError) as caught:
-        takes_of(path, Wishes(**wishes))
-    assert str(caught.value).startswith(str(path))
-    return str(caught.value)
 
 
 def table(path, header, *columns):

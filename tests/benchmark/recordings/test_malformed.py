@@ -12,6 +12,7 @@ from colift.benchmark.recordings.wishes import Wishes
 
 from . import motion_files as files
 from .motion_files import Dialect
+from .refusals import refusal
 
 SKELETON = (
     ":units\n length 0.45\n angle deg\n:root\n order TX TY TZ RX RY RZ\n:bonedata\n"
@@ -22,14 +23,6 @@ SKELETON = (
 MOTION = "#!OML:ASF arm.asf\n:FULLY-SPECIFIED\n:DEGREES\n" + "".join(
     f"{i}\nroot 0 {i} 0 0 0 0\narm 90\n" for i in range(1, 4)
 )
-
-
-def refusal(path):
-    with pytest.raises(InputError) as caught:
-        read_motions(path)
-    assert str(caught.value).startswith(str(path))
-    assert str(caught.value).isprintable()
-    return str(caught.value)
 
 
 @pytest.mark.parametrize("mark", [",", ";", "\t"])

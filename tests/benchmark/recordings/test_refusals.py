@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from . import motion_files as files
 from .motion_files import Dialect
+from .refusals import refusal
 
 
 def table(path, times, heights, header="t_s,z_m"):
@@ -27,14 +28,6 @@ def table(path, times, heights, header="t_s,z_m"):
 @pytest.fixture
 def path(tmp_path):
     return tmp_path / "lift.csv"
-
-
-def refusal(path, **wishes):
-    with pytest.raises(InputError) as caught:
-        takes_of(path, Wishes(**wishes))
-    assert str(caught.value).startswith(str(path))
-    assert str(caught.value).isprintable()
-    return str(caught.value)
 
 
 @settings(
