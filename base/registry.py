@@ -110,6 +110,11 @@ def policies_by_task() -> dict[str, tuple[str, ...]]:
     return dict(sorted(found.items()))
 
 
+def remembering() -> tuple[str, ...]:
+    """Return the names of colift's own policies that remember a person."""
+    return tuple(name for name, each in own_entries(POLICIES).items() if each.group == REMEMBERING)
+
+
 def own_policies(task: str, *, sessions: bool = False) -> tuple[str, ...]:
     """Return the names of colift's own policies that play a task; see :func:`playing`."""
     own = own_entries(POLICIES)

@@ -78,7 +78,7 @@ def admit_suite(
     """Test by six criteria whether the lifts of a suite need coordination.
 
     A suite with conditions is tested for whether there is something to infer, by two criteria,
-    and one of sessions for whether it pays to remember the person, by four.
+    and one of sessions for whether it pays to remember the person, by five.
 
     Criteria a, d, e and f test whether a robot needs its partner, b and c whether it needs to know
     the person. Exit code 1 if the first is not shown, or is shown for the control.

@@ -124,8 +124,14 @@ def interaction(evidence: Evidence) -> Criterion:
     ]
     share = spread(*([each.between_people for each in some] for some in left))
     itself = spread(*([each.variance for each in some] for some in left))
-    low, high = share.around(shares.between_people)
-    beyond = itself.around(shares.variance)[0] > 0.0
+    low, high = (min(max(end, 0.0), 1.0) for end in share.around(shares.between_people))
+    least, most = itself.around(shares.variance)
+    detail = _shares_in_words(shares, len(played.players), len(played.people))
+    if low >= INTERACTION and least <= 0.0:
+        detail += (
+            f"; the interaction itself, {shares.variance:.3f} [{least:.3f}, {most:.3f}], is not "
+            "beyond its noise"
+        )
     return Criterion(
         letter="b",
         claim=ADAPTATION,
@@ -133,8 +139,8 @@ def interaction(evidence: Evidence) -> Criterion:
         bar=f"at least {INTERACTION:g}",
         figure=shares.between_people,
         ci95=(low, high),
-        passed=low >= INTERACTION and beyond,
-        detail=_shares_in_words(shares, len(played.players), len(played.people)),
+        passed=low >= INTERACTION and least > 0.0,
+        detail=detail,
     )
 
 

@@ -11,9 +11,13 @@ from typing import Final
 
 import numpy as np
 from colift.agents.control.recurrent import GatedNetwork
+from colift.agents.loading.policy_spec import PolicySpec
 from colift.base.errors import InputError
+from colift.base.registry import remembering
 from colift.benchmark.admission.assessment import Admission
-from colift.benchmark.admission.criteria import Criterion
+from colift.benchmark.admission.criteria import Criterion, interaction
+from colift.benchmark.admission.evidence import Evidence
+from colift.benchmark.admission.fragility import judged
 from colift.benchmark.admission.played import Played
 from colift.benchmark.admission.ratio import ratio_criterion
 from colift.benchmark.admission.session_players import (
@@ -23,6 +27,7 @@ from colift.benchmark.admission.session_players import (
     REMEMBER,
     scores_of,
 )
+from colift.benchmark.execution.runner import run_suite
 from colift.benchmark.results.baselines import HUMAN_HUMAN_LABEL, human_human_run
 from colift.benchmark.results.scores import ScoreTable
 from colift.benchmark.suites.suite import Suite
@@ -56,7 +61,7 @@ def check_people(suite: Suite) -> None:
 
 def lifts_to_play(suite: Suite) -> int:
     """Return the number of lifts of :func:`memory_of`."""
-    return (len(PLAYERS) + 3) * suite.size
+    return (len(PLAYERS) + len(remembering()) + 3) * suite.size
 
 
 def memory_of(
@@ -144,9 +149,27 @@ def memory_of(
                 least=NOTHING,
                 beyond=False,
             ),
+            people_differ(suite, executor=executor, progress=progress),
         ),
         control=None,
     )
+
+
+def people_differ(
+    suite: Suite,
+    *,
+    executor: Executor | None = None,
+    progress: Callable[[int], None] = lambda episodes: None,
+) -> Criterion:
+    """Return whether the best of colift's policies with memory depends on the person."""
+    names = remembering()
+    runs = (
+        run_suite(PolicySpec(text=name), suite, executor=executor, progress=progress)
+        for name in names
+    )
+    tables = {name: ScoreTable.of(run) for name, run in zip(names, runs, strict=True)}
+    (found,) = judged(Evidence(played=Played.of(tables), policies=names), (interaction,))
+    return dataclasses.replace(found, letter="e")
 
 
 def _stated(letter: str, what: str, bar: str) -> Criterion:

@@ -53,8 +53,12 @@ class Learner(NamedTuple):
 
 def read(folder):
     """Return the steps of a data set, in the training view: inputs near one, and corrections."""
+    try:
+        episodes = minari.MinariDataset(folder / "data")
+    except ValueError as error:
+        raise InputError(f"{folder} is not a folder that colift export wrote: {error}") from error
     parts = []
-    for episode in minari.MinariDataset(folder / "data").iterate_episodes():
+    for episode in episodes.iterate_episodes():
         senses = Senses(STEPS)
         whole = np.array([senses(each) for each in episode.observations])
         actions = episode.actions.ravel()

@@ -180,7 +180,8 @@ def main():
     arguments.add_argument("folder", type=Path)
     arguments.add_argument("--steps", type=float, default=2e6, help="control steps of each cell")
     arguments.add_argument("--seeds", type=int, default=5)
-    arguments.add_argument("--learners", nargs="+", default=[*LEARNERS, GRADIENTS])
+    learners = [*LEARNERS, GRADIENTS]
+    arguments.add_argument("--learners", nargs="+", choices=learners, default=learners)
     arguments.add_argument("--tasks", nargs="+", choices=TASKS, default=list(TASKS))
     arguments.add_argument("--jobs", type=int, default=1, help="trainings at a time")
     given = arguments.parse_args()

@@ -27,7 +27,7 @@ from colift.leaderboard.evaluation.progress import Callbacks
 from colift.leaderboard.records.season import BoardEntry, PlayedEntry, Season
 from colift.leaderboard.replays.chosen import FILE, chosen_replays
 
-SUITES: Final = (*LEADING_SUITES, "paper-v1", "intent-v1", "ball-v1")
+SUITES: Final = (*LEADING_SUITES, "session-v1", "paper-v1", "intent-v1", "agree-v1", "ball-v1")
 """The suites that have a practice season, in the order in which a new board shows them.
 
 Its rows are the policies that are made for the suite's task: the others fail most of its lifts.

@@ -81,6 +81,13 @@ def test_what_a_learner_cannot_do_is_refused_before_it_learns(tmp_path, name, ar
     assert (done.returncode, done.stdout, done.stderr) == (1, "", f"error: {told}\n")
 
 
+def test_no_data_are_named(tmp_path):
+    done = ran(tmp_path, "offline.py", "none", "--out", "made")
+    assert done.returncode == 1
+    assert done.stderr.startswith("error: none is not a folder that colift export wrote: ")
+    assert "Traceback" not in done.stderr
+
+
 @pytest.mark.parametrize("method", ["bc", "iql"])
 def test_a_learner_from_data(tmp_path, method):
     export = [sys.executable, "-m", "colift", "export", "--set", "expert", "--lifts", "30"]

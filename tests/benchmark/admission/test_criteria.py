@@ -44,6 +44,15 @@ def test_a_strong_interaction_has_a_large_share():
     assert found.ci95[0] < 25 / 29 < found.ci95[1]
 
 
+def test_an_interaction_of_one_policy_alone_is_not_beyond_its_noise():
+    values = errors(0, (6, 40, 4), person=0.05)
+    values[0] *= np.exp(np.random.default_rng(100).standard_normal((40, 1)))
+    found = interaction(evidence(values))
+    assert 0.2 < found.ci95[0] <= found.ci95[1] <= 1.0
+    assert not found.passed
+    assert found.detail.endswith("is not beyond its noise")
+
+
 def pairs(seed, count, own=1.0):
     """Return the errors of pairs that are ``own`` times as large with their own partners."""
     rng = np.random.default_rng(seed)
