@@ -60,12 +60,10 @@ def train_apg(
             steps = round(learner.update * steps_of_update)
             point = Point(steps, time.perf_counter() - start, error)
             course.keep(point, _packed(learner))
-    description, trained_on = lesson.about(settings)
     write_policy(
         course,
         lesson.weights(learner.network),
-        description=description,
-        trained_on=trained_on,
+        lesson.about(settings),
         package=lesson.package,
         check=lesson.check,
     )

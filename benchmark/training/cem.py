@@ -123,10 +123,12 @@ def train_cem(
     write_policy(
         course,
         unpack(settings, mean),
-        description=f"A straight line through the human's last heights, corrected by a network of "
-        f"{settings.hidden} units, trained by the cross-entropy method.",
-        trained_on=f"{settings.generations * settings.lifts} lifts of colift with drawn people, "
-        f"seeds {LEARNING_SEEDS[0]} to {LEARNING_SEEDS[-1]}.",
+        {
+            "description": f"A straight line through the human's last heights, corrected by a "
+            f"network of {settings.hidden} units, trained by the cross-entropy method.",
+            "trained_on": f"{settings.generations * settings.lifts} lifts of colift with drawn "
+            f"people, seeds {LEARNING_SEEDS[0]} to {LEARNING_SEEDS[-1]}.",
+        },
     )
 
 

@@ -74,8 +74,8 @@ class PolicyLesson(GradientLesson, Protocol):
     def weights(self, network: GatedNetwork) -> Weights:
         """Return the arrays of the policy's file of weights."""
 
-    def about(self, settings: ApgSettings) -> tuple[str, str]:
-        """Return the manifest's ``description`` and ``trained_on``."""
+    def about(self, settings: ApgSettings) -> dict[str, str]:
+        """Return the entries of the manifest that say what was trained, and on what."""
 
 
 def first_network(inputs: int, units: int, seed: int, outputs: int = 1) -> GatedNetwork:

@@ -72,14 +72,15 @@ class LevelLesson:
         """Return the arrays of the policy's file of weights."""
         return {name: np.asarray(array) for name, array in network._asdict().items()}
 
-    def about(self, settings: ApgSettings) -> tuple[str, str]:
-        """Return the manifest's ``description`` and ``trained_on``."""
-        return (
-            f"A straight line through the human's last heights, corrected by "
+    def about(self, settings: ApgSettings) -> dict[str, str]:
+        """Return the entries of the manifest that say what was trained, and on what."""
+        return {
+            "description": f"A straight line through the human's last heights, corrected by "
             f"{settings.units} gated recurrent units, trained by gradients through the twin.",
-            f"{settings.lifts} lifts of colift with drawn people, seeds {FIRST_SEED} to "
-            f"{FIRST_SEED + settings.lifts - 1}, {settings.wide:.0%} of them with wide habits.",
-        )
+            "trained_on": f"{settings.lifts} lifts of colift with drawn people, seeds "
+            f"{FIRST_SEED} to {FIRST_SEED + settings.lifts - 1}, "
+            f"{settings.wide:.0%} of them with wide habits.",
+        }
 
 
 def batch_loss(

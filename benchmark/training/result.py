@@ -46,9 +46,8 @@ def checked_network(weights: Weights) -> Network:
 def write_policy(
     course: Course,
     weights: Weights,
+    about: Mapping[str, str],
     *,
-    description: str,
-    trained_on: str,
     package: ModuleType = network,
     check: Callable[[Weights], object] = checked_network,
 ) -> Path:
@@ -62,8 +61,8 @@ def write_policy(
         The course of the training.
     weights
         The weights, in the form that its policy reads.
-    description, trained_on
-        Entries of the manifest.
+    about
+        Entries of the manifest; the name is that of the trainer and the seed.
     package
         The package of its ``policy.py``.
     check
@@ -75,12 +74,8 @@ def write_policy(
         As ``check``, or if a file cannot be written.
     """
     check(weights)
-    about = {
-        "name": f"{course.identity['trainer']} seed {course.seed}",
-        "description": description,
-        "trained_on": trained_on,
-    }
-    return write_network(course.policy, weights, about, package)
+    name = f"{course.identity['trainer']} seed {course.seed}"
+    return write_network(course.policy, weights, {"name": name, **about}, package)
 
 
 def check_place(folder: Path) -> None:

@@ -149,16 +149,19 @@ class SessionLesson:
         """Return the arrays of the policy's file of weights."""
         return {name: np.asarray(array) for name, array in network._asdict().items()}
 
-    def about(self, settings: ApgSettings) -> tuple[str, str]:
-        """Return the manifest's ``description`` and ``trained_on``."""
+    def about(self, settings: ApgSettings) -> dict[str, str]:
+        """Return the entries of the manifest that say what was trained, and on what."""
         people = self._people(settings)
-        return (
-            f"A straight line through the human's last heights, corrected by {settings.units} "
-            "gated recurrent units that remember the lifts of a session, trained by gradients "
-            "through the twin.",
-            f"Sessions of colift with {len(people)} drawn people, draw-{people[0]} to "
-            f"draw-{people[-1]}.",
-        )
+        remembers = self.kind == "remember"
+        verb = "remember" if remembers else "forget"
+        return {
+            "description": "A straight line through the human's last heights, corrected by "
+            f"{settings.units} gated recurrent units that {verb} the lifts of a session, trained "
+            "by gradients through the twin.",
+            "trained_on": f"Sessions of colift with {len(people)} drawn people, draw-{people[0]} "
+            f"to draw-{people[-1]}.",
+            **({} if remembers else {"parameters": "remember=false"}),
+        }
 
 
 def session_policy(network: GatedNetwork, count: int) -> tuple[Policy, Memory]:

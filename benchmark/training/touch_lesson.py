@@ -113,14 +113,15 @@ class TouchLesson:
         rows = np.array(scales).reshape(-1, 2)
         return {**arrays, "task": np.array(self.task), "scales": rows, **known}
 
-    def about(self, settings: ApgSettings) -> tuple[str, str]:
-        """Return the manifest's ``description`` and ``trained_on``."""
-        return (
-            f"A table that is held by touch, with a departure from level by {settings.units} "
-            f"gated recurrent units, trained by gradients through the twin of {self.task!r}.",
-            f"{settings.lifts} lifts of the task {self.task!r} of colift with drawn people, seeds "
-            f"{LEARNING_SEEDS[0]} to {LEARNING_SEEDS[settings.lifts - 1]}.",
-        )
+    def about(self, settings: ApgSettings) -> dict[str, str]:
+        """Return the entries of the manifest that say what was trained, and on what."""
+        return {
+            "description": f"A table that is held by touch, with a departure from level by "
+            f"{settings.units} gated recurrent units, trained by gradients through the "
+            f"twin of {self.task!r}.",
+            "trained_on": f"{settings.lifts} lifts of the task {self.task!r} of colift with drawn "
+            f"people, seeds {LEARNING_SEEDS[0]} to {LEARNING_SEEDS[settings.lifts - 1]}.",
+        }
 
 
 def touch_policy(learned: TouchNetwork, count: int) -> tuple[Any, TouchMemory]:

@@ -10,7 +10,13 @@ pytestmark = pytest.mark.slow
 
 
 def test_training(in_own_process):
-    modules = ("jax_apg.py", "jax_touch.py", "jax_pairs.py", "jax_conditioned_lesson.py")
+    modules = (
+        "jax_apg.py",
+        "jax_touch.py",
+        "jax_pairs.py",
+        "jax_conditioned_lesson.py",
+        "jax_session_lesson.py",
+    )
     in_own_process(*map(Path(__file__).with_name, modules))
 
 

@@ -123,7 +123,7 @@ def test_a_full_disk_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     with pytest.raises(InputError, match=r"cannot write .*checkpoint.npz: No space left"):
         course.keep(Point(300, 4.0, 7.0), STATE)
     with pytest.raises(InputError, match=r"cannot write .*: No space left"):
-        write_policy(course, WEIGHTS, description="a", trained_on="b")
+        write_policy(course, WEIGHTS, {"description": "a", "trained_on": "b"})
     assert course.checkpoint.read_bytes() == before
     assert {path.name for path in tmp_path.iterdir()} == {
         "settings.json",
@@ -145,7 +145,7 @@ def test_the_result_is_a_submission_the_same_byte_for_byte(tmp_path):
     digests = []
     for _ in range(2):
         course = kept(tmp_path)
-        folder = write_policy(course, WEIGHTS, description="a line", trained_on="people")
+        folder = write_policy(course, WEIGHTS, {"description": "a line", "trained_on": "people"})
         submission = read_submission(folder)
         digests.append(submission.contents.digest)
     assert digests[0] == digests[1]
@@ -163,5 +163,5 @@ def test_the_result_is_a_submission_the_same_byte_for_byte(tmp_path):
 def test_weights_that_cannot_be_used_leave_no_submission(tmp_path, change, told):
     course = kept(tmp_path)
     with pytest.raises(InputError, match=f"trained weights cannot be used: {told}"):
-        write_policy(course, {**WEIGHTS, **change}, description="a", trained_on="b")
+        write_policy(course, {**WEIGHTS, **change}, {"description": "a", "trained_on": "b"})
     assert not course.policy.exists()
