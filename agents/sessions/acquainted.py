@@ -18,7 +18,7 @@ class AcquaintedParameters:
     that was trained alike, and begins each lift anew."""
     model: str | None = None
     """File ``weights.npz`` of a folder written by ``colift train apg --session``; None: a shipped
-    one."""
+    one. A network that was trained to forget needs ``remember=False``."""
 
 
 class Acquainted(SessionController):

@@ -153,14 +153,14 @@ class SessionLesson:
         """Return the entries of the manifest that say what was trained, and on what."""
         people = self._people(settings)
         remembers = self.kind == "remember"
-        verb = "remember" if remembers else "forget"
         return {
             "description": "A straight line through the human's last heights, corrected by "
-            f"{settings.units} gated recurrent units that {verb} the lifts of a session, trained "
-            "by gradients through the twin.",
+            f"{settings.units} gated recurrent units that "
+            f"{'remember' if remembers else 'forget'} the lifts of a session, trained by gradients "
+            "through the twin.",
             "trained_on": f"Sessions of colift with {len(people)} drawn people, draw-{people[0]} "
             f"to draw-{people[-1]}.",
-            **({} if remembers else {"parameters": "remember=false"}),
+            "parameters": f"remember={'true' if remembers else 'false'}",
         }
 
 
