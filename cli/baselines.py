@@ -19,13 +19,15 @@ from colift.benchmark.results.baselines import (
 from colift.benchmark.suites.suite import make_suite
 from colift.benchmark.tables.printing import left, show, table
 from colift.cli.completion import suites as named
-from colift.cli.options import Jobs, check_output, write_output
+from colift.cli.options import Jobs, check_new_file, write_output
 
 
 def baselines(
     out: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="JSON file for the results, in the form colift ships."),
+        typer.Option(
+            metavar="FILE", help="New JSON file for the results, in the form colift ships."
+        ),
     ] = None,
     only: Annotated[
         list[str] | None,
@@ -43,7 +45,7 @@ def baselines(
 
     Example: colift baselines --suite quick-v1 --out baselines.json
     """
-    check_output(out)
+    check_new_file(out, ".json")
     suites = [make_suite(name) for name in only or own_entries(SUITES)]
     total = sum((len(BASELINES) + len(suite_references(suite))) * suite.size for suite in suites)
     played: list[ToShip] = []

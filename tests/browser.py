@@ -8,7 +8,9 @@ from typing import Any, Protocol
 
 import pytest
 from axe_core_python.sync_playwright import Axe
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
+expect.set_options(timeout=60_000)  # A machine may be busy; no test is about time.
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 

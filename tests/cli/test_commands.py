@@ -145,6 +145,7 @@ def test_list_names_everything(colift):
         (["learn", "reactive", "--trials", "0"], "--trials"),
         (["learn", "reactive", "--out", "/nowhere/x.json"], "no folder /nowhere"),
         (["calibrate", "--out", "/nowhere/x.json"], "no folder /nowhere"),
+        (["baselines", "--out", "policy.py"], "its suffix must be .json"),
     ],
 )
 def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told, tmp_path):
@@ -164,6 +165,7 @@ def test_wrong_usage_is_one_clear_line_and_exit_code_2(colift, arguments, told, 
         (("learn", "task_model"), "mine.json"),
         (("learn", "anticipate", "--lifts", "1"), "mine.json"),
         (("calibrate",), "mine.json"),
+        (("baselines",), "mine.json"),
         (("sweep",), "mine.png"),
     ],
 )

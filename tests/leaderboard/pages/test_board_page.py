@@ -126,8 +126,8 @@ def test_what_a_submission_says_is_text_and_nothing_else(page, front):
 def test_another_season_is_a_frozen_tab_with_what_has_been_done_to_it(page, front, names):
     page.goto(front)
     page.get_by_role("link", name="Season 2025").click()
-    assert "hold" not in names(page)
     expect(page.get_by_text("Season 2025 takes no submissions")).to_be_visible()
+    assert "hold" not in names(page)
     gone = page.get_by_role("region", name="Out of the ranking")
     expect(gone).to_contain_text("hold")
     expect(page.get_by_role("region", name="Changes")).to_contain_text("it <i>never</i> moved")

@@ -211,4 +211,5 @@ def test_markers_of_the_key_are_those_of_the_picture(page, front):
     page.goto(front)
     page.get_by_role("link", name="Compare", exact=True).click()
     keys = page.locator(".key li[data-p]:visible use")
+    expect(keys).to_have_count(2)
     assert [each.get_attribute("href") for each in keys.all()] == [each[1] for each in series(page)]
