@@ -147,7 +147,6 @@ def memory_of(
                     f"at least {NOTHING:g}",
                 ),
                 least=NOTHING,
-                beyond=False,
             ),
             people_differ(suite, executor=executor, progress=progress),
         ),
