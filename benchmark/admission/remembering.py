@@ -147,6 +147,7 @@ def memory_of(
                     f"at least {NOTHING:g}",
                 ),
                 least=NOTHING,
+                beyond=False,
             ),
             people_differ(suite, executor=executor, progress=progress),
         ),

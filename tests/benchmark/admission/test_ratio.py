@@ -22,23 +22,21 @@ def ratio(*by_person, **limits):
     ("limits", "verdict"),
     [
         ({"most": 0.9}, "passed"),
-        ({"most": 0.805}, "failed"),
         ({"most": 0.7}, "failed"),
-        ({"least": 0.7}, "passed"),
-        ({"least": 0.8}, "failed"),
+        ({"least": 0.7}, "failed"),
+        ({"least": 0.7, "beyond": False}, "passed"),
     ],
 )
-def test_a_ratio_passes_if_the_whole_interval_is_within_the_limit(limits, verdict):
+def test_a_ratio_passes_within_its_limit_and_beyond_chance(limits, verdict):
     found = ratio(0.8, 0.82, 0.78, 0.81, **limits)
     assert found.verdict == verdict
-    assert found.figure == pytest.approx(0.802, abs=0.001)
-    assert found.ci95 == pytest.approx((0.775, 0.831), abs=0.003)
+    assert found.figure == pytest.approx(0.8, abs=0.01)
 
 
 def test_one_person_who_decides_is_named():
-    found = ratio(0.6, 0.62, 0.58, 0.61, 0.9, most=0.7)
+    found = ratio(0.8, 0.82, 0.78, 0.81, 0.1, most=0.7, beyond=False)
     assert (found.verdict, found.hangs_on) == ("undecided", ("draw-4",))
 
 
 def test_of_three_people_nobody_is_left_out():
-    assert ratio(0.6, 0.61, 0.69, most=0.8).hangs_on == ()
+    assert ratio(0.8, 0.82, 0.1, most=0.7, beyond=False).verdict == "passed"
