@@ -50,7 +50,8 @@ class Criterion:
     ci95: Interval | None = None
     """Its 95 % interval; None if it was not compared."""
     passed: bool | None = None
-    """Whether the whole interval is within the limit; None if it was not compared."""
+    """Whether it holds: the whole interval is within the limit, or as for :func:`.ratio_criterion`;
+    None if it was not compared."""
     hangs_on: tuple[str, ...] = ()
     """The policies, people and pairs that decide it: without any one of them, it has the opposite
     result."""
